@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SphereScene.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace po
+{
+namespace
+{
+struct OcclusionContext
+{
+  RayQueryContext embree; // first, so that the filter can cast back
+  unsigned own;
+};
+
+/// Rejects the ray's own sphere and every sphere whose centre does not lie ahead.
+void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
+{
+  const auto* spheres = static_cast<const Sphere*>(arguments->geometryUserPtr);
+  const auto* context = reinterpret_cast<const OcclusionContext*>(arguments->context);
+  for (unsigned i = 0; i < arguments->N; ++i)
+  {
+    if (arguments->valid[i] == 0)
+    {
+      continue;
+    }
+    const unsigned id = RTCHitN_primID(arguments->hit, arguments->N, i);
+    const Vec3f origin{ RTCRayN_org_x(arguments->ray, arguments->N, i),
+      RTCRayN_org_y(arguments->ray, arguments->N, i),
+      RTCRayN_org_z(arguments->ray, arguments->N, i) };
+    const Vec3f direction{ RTCRayN_dir_x(arguments->ray, arguments->N, i),
+      RTCRayN_dir_y(arguments->ray, arguments->N, i),
+      RTCRayN_dir_z(arguments->ray, arguments->N, i) };
+    const bool ahead = dot(spheres[id].center() - origin, direction) > 0;
+    if (id == context->own || !ahead)
+    {
+      arguments->valid[i] = 0;
+    }
+  }
+}
+}
+
+SphereScene::SphereScene(std::vector<Sphere> spheres)
+  : device_(makeDevice())
+  , spheres_(std::move(spheres))
+  , scene_(rtcNewScene(device_.get()))
+{
+  if (!spheres_.empty())
+  {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    if (!geometry)
+    {
+      throw std::runtime_error("This build of Embree has no sphere geometry: "
+                               "it was configured without EMBREE_GEOMETRY_POINT.");
+    }
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+      spheres_.data(), 0, sizeof(Sphere), spheres_.size());
+    rtcSetGeometryUserData(geometry, spheres_.data());
+    rtcSetGeometryOccludedFilterFunction(geometry, keepSpheresAhead);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(scene_.get());
+  throwOnError(device_.get(), "building the scene of spheres");
+}
+
+bool SphereScene::occluded(Vec3f origin, Vec3f direction, float distance, unsigned own) const
+{
+  OcclusionContext context;
+  initRayQueryContext(context.embree, false);
+  context.own = own;
+
+  RTCRay ray;
+  ray.org_x = origin.x;
+  ray.org_y = origin.y;
+  ray.org_z = origin.z;
+  ray.tnear = 0;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.time = 0;
+  ray.tfar = distance;
+  ray.mask = 0xFFFFFFFFu;
+  ray.id = 0;
+  ray.flags = 0;
+  occluded1(scene_.get(), context.embree, ray);
+  return ray.tfar < 0; // Embree marks an occluded ray with -infinity
+}
+}

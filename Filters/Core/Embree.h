@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_Embree_h
+#define po_Embree_h
+
+// Embree 3 and 4 behind the calls of Embree 4: include this instead of rtcore.h.
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <memory>
+#include <type_traits>
+
+namespace po
+{
+#if RTC_VERSION_MAJOR >= 4
+using RayQueryContext = RTCRayQueryContext;
+
+inline void initRayQueryContext(RayQueryContext& context, bool /*coherent*/)
+{
+  rtcInitRayQueryContext(&context);
+}
+
+/// Occlusion test of one ray; the scene's geometry filter sees `context`.
+inline void occluded1(RTCScene scene, RayQueryContext& context, RTCRay& ray)
+{
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
+
+inline void intersect1(RTCScene scene, RayQueryContext& context, RTCRayHit& ray)
+{
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray, &arguments);
+}
+
+inline void intersect16(
+  const int* valid, RTCScene scene, RayQueryContext& context, RTCRayHit16& rays)
+{
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &rays, &arguments);
+}
+
+inline void occluded16(const int* valid, RTCScene scene, RayQueryContext& context, RTCRay16& rays)
+{
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcOccluded16(valid, scene, &rays, &arguments);
+}
+#else
+using RayQueryContext = RTCIntersectContext;
+
+inline void initRayQueryContext(RayQueryContext& context, bool coherent)
+{
+  rtcInitIntersectContext(&context);
+  context.flags =
+    coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+}
+
+/// Occlusion test of one ray; the scene's geometry filter sees `context`.
+inline void occluded1(RTCScene scene, RayQueryContext& context, RTCRay& ray)
+{
+  rtcOccluded1(scene, &context, &ray);
+}
+
+inline void intersect1(RTCScene scene, RayQueryContext& context, RTCRayHit& ray)
+{
+  rtcIntersect1(scene, &context, &ray);
+}
+
+inline void intersect16(
+  const int* valid, RTCScene scene, RayQueryContext& context, RTCRayHit16& rays)
+{
+  rtcIntersect16(valid, scene, &context, &rays);
+}
+
+inline void occluded16(const int* valid, RTCScene scene, RayQueryContext& context, RTCRay16& rays)
+{
+  rtcOccluded16(valid, scene, &context, &rays);
+}
+#endif
+
+struct ReleaseDevice
+{
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene
+{
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
+using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+
+/// A new Embree device; throws std::runtime_error with Embree's reason.
+[[nodiscard]] DeviceHandle makeDevice();
+
+/// Throws std::runtime_error if the device has an error to report; `action` says what was tried.
+void throwOnError(RTCDevice device, const char* action);
+}
+
+#endif

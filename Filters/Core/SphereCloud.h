@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_SphereCloud_h
+#define po_SphereCloud_h
+
+#include "Sphere.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace po
+{
+/// Why particles were left out of a cloud; each particle is counted once, under the first reason.
+struct RejectedParticles
+{
+  std::size_t nonFinitePosition = 0; ///< a coordinate is NaN or infinite
+  std::size_t nonFiniteRadius = 0;   ///< the radius is NaN or infinite
+  std::size_t nonPositiveRadius = 0; ///< the radius is zero or negative
+  std::size_t outOfRange = 0;        ///< too far or too small for a float beside the mean radius
+
+  [[nodiscard]] std::size_t total() const
+  {
+    return nonFinitePosition + nonFiniteRadius + nonPositiveRadius + outOfRange;
+  }
+};
+
+/// Spheres made ready for single-precision ray tracing.
+///
+/// Float arithmetic loses the surface of a small sphere far from the origin, so positions are taken
+/// relative to the middle of the cloud (subtracted in double) and divided by the mean radius:
+/// local = (world - origin) / scale. All lengths that enter ray tracing are local.
+struct SphereCloud
+{
+  Vec3d origin;                        ///< world position of the local origin
+  double scale = 1;                    ///< world length of one local unit: the mean radius
+  std::vector<Sphere> spheres;         ///< the usable spheres, in input order, local
+  std::vector<std::int64_t> sourceIds; ///< index of each sphere in the input
+  RejectedParticles rejected;
+
+  [[nodiscard]] Vec3d toLocal(Vec3d world) const { return (1.0 / scale) * (world - origin); }
+  [[nodiscard]] Vec3d toWorld(Vec3d local) const { return origin + scale * local; }
+};
+
+/// Gathers the usable ones of `count` particles.
+///
+/// @param positionAt world position of particle i
+/// @param radiusAt world radius of particle i, any number (what cannot be a sphere is rejected)
+[[nodiscard]] SphereCloud makeSphereCloud(std::size_t count,
+  const std::function<Vec3d(std::size_t)>& positionAt,
+  const std::function<double(std::size_t)>& radiusAt);
+}
+
+#endif

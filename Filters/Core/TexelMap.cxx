@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TexelMap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace po
+{
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+}
+
+TextureCoordinate textureCoordinate(Vec3d d)
+{
+  const double azimuth = std::atan2(d.y, d.x);
+  // acos(z) has no digits left near the poles; the angle from both legs has.
+  const double polar = std::atan2(std::hypot(d.x, d.y), d.z);
+  double u = azimuth / (2 * Pi);
+  u -= std::floor(u);
+  return { u < 1 ? u : 0.0, polar / Pi }; // -1e-17 wraps to 1 by rounding
+}
+
+Vec3d textureDirection(TextureCoordinate c)
+{
+  const double azimuth = 2 * Pi * c.u;
+  const double polar = Pi * c.v;
+  const double s = std::sin(polar);
+  return { s * std::cos(azimuth), s * std::sin(azimuth), std::cos(polar) };
+}
+
+Vec3d texelPoint(int resolution, int row, int column, double s, double t)
+{
+  const double top = std::cos(Pi * row / resolution);
+  const double bottom = std::cos(Pi * (row + 1) / resolution);
+  const double z = top + t * (bottom - top);
+  const double azimuth = 2 * Pi * (column + s) / resolution;
+  const double radius = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
+  return { radius * std::cos(azimuth), radius * std::sin(azimuth), z };
+}
+
+double texelArea(int resolution, int row)
+{
+  const double top = std::cos(Pi * row / resolution);
+  const double bottom = std::cos(Pi * (row + 1) / resolution);
+  return 2 * Pi / resolution * (top - bottom);
+}
+
+double texelAngularRadius(int resolution, int row)
+{
+  if (resolution == 1)
+  {
+    return Pi; // the one texel is the whole sphere
+  }
+  // On a row's upper and lower edge the distance from the centre grows with the azimuth, so the
+  // farthest point of the texel is a corner.
+  const Vec3d center = textureDirection({ 0.5 / resolution, (row + 0.5) / resolution });
+  double radius = 0;
+  for (const int edge : { row, row + 1 })
+  {
+    const Vec3d corner = textureDirection({ 0.0, static_cast<double>(edge) / resolution });
+    radius = std::max(radius, std::acos(std::clamp(dot(center, corner), -1.0, 1.0)));
+  }
+  return radius;
+}
+
+BilinearTexels bilinearTexels(int resolution, TextureCoordinate c)
+{
+  const double x = c.u * resolution - 0.5;
+  const double y = c.v * resolution - 0.5;
+  const double left = std::floor(x);
+  const double above = std::floor(y);
+  const auto fx = static_cast<float>(x - left);
+  const auto fy = static_cast<float>(y - above);
+
+  const int i = static_cast<int>(left);
+  const int j = static_cast<int>(above);
+  const int i0 = (i + resolution) % resolution;
+  const int i1 = (i + 1) % resolution;
+  const int j0 = std::clamp(j, 0, resolution - 1);
+  const int j1 = std::clamp(j + 1, 0, resolution - 1);
+  return { { texelIndex(resolution, j0, i0), texelIndex(resolution, j0, i1),
+             texelIndex(resolution, j1, i0), texelIndex(resolution, j1, i1) },
+    { (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy } };
+}
+}
