@@ -19,8 +19,8 @@ class vtkPolyData;
 
 namespace po
 {
-/// The poly data blocks of `data` that have points: the data set itself, or the leaves of a composite
-/// one.
+/// The poly data blocks of `data` that have points: the data set itself, or the leaves of a
+/// composite one.
 [[nodiscard]] std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data);
 
 /// One cloud of the particles of all blocks; sourceIds count through the blocks in order.

@@ -6,7 +6,6 @@
 #include "ExrBackground.h"
 #include "ReferenceEstimator.h"
 
-#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -50,7 +49,8 @@ void requireNotNegative(const char* name, double value, const char* zeroMeans = 
   if (!(value >= 0) || !std::isfinite(value))
   {
     std::ostringstream message;
-    message << name << " must be a number of at least 0" << zeroMeans << ", but is " << value << ".";
+    message << name << " must be a number of at least 0" << zeroMeans << ", but is " << value
+            << ".";
     throw std::invalid_argument(message.str());
   }
 }
@@ -69,13 +69,14 @@ void requireMemory(std::size_t particles, const po::BakeSettings& settings)
   vtksys::SystemInformation system;
   const double needed = po::bakeMemory(particles, settings);
   const double available = 1024.0 *
-    (static_cast<double>(system.GetHostMemoryAvailable("PO_HOST_LIMIT", "PO_PROC_LIMIT")) -
+    (static_cast<double>(system.GetHostMemoryAvailable(nullptr)) -
       static_cast<double>(system.GetHostMemoryUsed()));
   if (needed > available)
   {
     throw std::runtime_error("Baking " + std::to_string(particles) + " particles needs up to " +
       inGigabytes(needed) + " of memory, but " + inGigabytes(std::max(available, 0.0)) +
-      " are free: lower TextureResolution, choose the Encoding UInt8Gamma2, or bake fewer particles.");
+      " are free: lower TextureResolution, choose the Encoding UInt8Gamma2, or bake fewer "
+      "particles.");
   }
 }
 }
@@ -95,8 +96,8 @@ struct vtkSphereAmbientOcclusion::Internals
   static po::Background ReadBackground(vtkSphereAmbientOcclusion* self);
   static po::RadiusSettings ReadRadius(vtkSphereAmbientOcclusion* self);
 
-  po::OcclusionParameters Describe(vtkSphereAmbientOcclusion* self, const po::BakeSettings& settings,
-    const po::EncodedTable& table) const;
+  po::OcclusionParameters Describe(vtkSphereAmbientOcclusion* self,
+    const po::BakeSettings& settings, const po::EncodedTable& table) const;
 
   void Bake(vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks);
 };
@@ -121,8 +122,9 @@ po::Background vtkSphereAmbientOcclusion::Internals::ReadBackground(vtkSphereAmb
   {
     if (!self->BackgroundImage || !self->BackgroundImage[0])
     {
-      throw std::invalid_argument("BackgroundImage is empty: choose an OpenEXR file in latitude and "
-                                  "longitude, or another Background.");
+      throw std::invalid_argument(
+        "BackgroundImage is empty: choose an OpenEXR file in latitude and "
+        "longitude, or another Background.");
     }
     po::LatLongImage image = po::ReadLatLongImage(self->BackgroundImage);
     return po::ImageBackground{ image.Width, image.Height, std::move(image.Luminance) };
@@ -280,14 +282,7 @@ int vtkSphereAmbientOcclusion::RequestData(
   *this->Impl = Internals();
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(output))
-  {
-    composite->RecursiveShallowCopy(input); // new leaves: adding arrays must not touch the input
-  }
-  else
-  {
-    output->ShallowCopy(input);
-  }
+  output->ShallowCopy(input); // of a composite data set the leaves too
 
   vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
   if (processes && processes->GetNumberOfProcesses() > 1 && processes->GetLocalProcessId() == 0)

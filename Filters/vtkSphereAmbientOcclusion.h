@@ -17,9 +17,9 @@
  * occlude each other.
  *
  * The output is a shallow copy of the input plus
- * - point data `AmbientOcclusion`, float32[N]: mean visibility of the particle over the area that is
- *   outside other particles, linear, 0 (exactly: no light arrives) to 1 (open; more under a brighter
- *   background);
+ * - point data `AmbientOcclusion`, float32[N]: mean visibility of the particle over the area that
+ * is outside other particles, linear, 0 (exactly: no light arrives) to 1 (open; more under a
+ * brighter background);
  * - point data `AmbientOcclusionTexture`, int32[N]: row of the particle's texture in the table;
  * - field data `AmbientOcclusionTextures`: one tuple a distinct texture, T*T components, uint8 or
  *   float32;
@@ -28,12 +28,13 @@
  *
  * A texel is the mean of (1/pi) * integral of V(x, w) L(w) max(0, n.w) dw over the part of its area
  * that is outside all other spheres: V is visibility, L the luminance of the background. Component
- * j*T + i covers polar angles [j pi/T, (j+1) pi/T] from +z and azimuths [2 pi i/T, 2 pi (i+1)/T] from
- * +x towards +y.
+ * j*T + i covers polar angles [j pi/T, (j+1) pi/T] from +z and azimuths [2 pi i/T, 2 pi (i+1)/T]
+ * from +x towards +y.
  *
  * Particles whose position or radius is NaN, infinite, zero or negative are left out with one
- * warning that counts them: row -1, visibility 0. If a parameter or array is wrong the filter reports
- * one error that names it and gives no output. When aborted, it passes the input on unbaked.
+ * warning that counts them: row -1, visibility 0. If a parameter or array is wrong the filter
+ * reports one error that names it and gives no output. When aborted, it passes the input on
+ * unbaked.
  *
  * Under MPI every process bakes its own particles as if there were no others.
  */
@@ -47,8 +48,8 @@ public:
   ///@{
   /**
    * Point array of radii, one component. Empty (default) or "(automatic)": the first of radius,
-   * Radius, rad, r, diameter that exists, else ConstantRadius. "(none)": ConstantRadius. Of an array
-   * named diameter half the value is the radius.
+   * Radius, rad, r, diameter that exists, else ConstantRadius. "(none)": ConstantRadius. Of an
+   * array named diameter half the value is the radius.
    */
   vtkSetStringMacro(RadiusArray);
   vtkGetStringMacro(RadiusArray);
@@ -61,8 +62,8 @@ public:
   ///@}
 
   ///@{
-  /// Radius where no array is used, in the units of the points; 0 [default]: half the median distance
-  /// to the nearest neighbour.
+  /// Radius where no array is used, in the units of the points; 0 [default]: half the median
+  /// distance to the nearest neighbour.
   vtkSetMacro(ConstantRadius, double);
   vtkGetMacro(ConstantRadius, double);
   ///@}
@@ -81,9 +82,9 @@ public:
 
   ///@{
   /**
-   * RMS error of linear visibility to reach, area-weighted over the set; 0 [default] = off. When set,
-   * it takes the place of SamplesPerTexel: a pilot bake of a part of the particles finds how many
-   * rays reach it. Below 1.
+   * RMS error of linear visibility to reach, area-weighted over the set; 0 [default] = off. When
+   * set, it takes the place of SamplesPerTexel: a pilot bake of a part of the particles finds how
+   * many rays reach it. Below 1.
    */
   vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
@@ -142,8 +143,8 @@ public:
   ///@}
 
   ///@{
-  /// Image background: an OpenEXR file in latitude and longitude, first row at +z, first column at +x,
-  /// columns towards +y.
+  /// Image background: an OpenEXR file in latitude and longitude, first row at +z, first column at
+  /// +x, columns towards +y.
   vtkSetFilePathMacro(BackgroundImage);
   vtkGetFilePathMacro(BackgroundImage);
   ///@}
@@ -157,7 +158,8 @@ public:
   ///@}
 
   ///@{
-  /// A texel of which less than this share is outside other particles counts as inside, 0 to 1 [0.05].
+  /// A texel of which less than this share is outside other particles counts as inside, 0 to 1
+  /// [0.05].
   vtkSetMacro(InsideThreshold, double);
   vtkGetMacro(InsideThreshold, double);
   ///@}
@@ -175,7 +177,8 @@ public:
   ///@}
 
   ///@{
-  /// Seed of all random numbers, at least 0 [1]. The same seed gives the same bits, for any number of threads.
+  /// Seed of all random numbers, at least 0 [1]. The same seed gives the same bits, for any number
+  /// of threads.
   vtkSetMacro(Seed, int);
   vtkGetMacro(Seed, int);
   ///@}
@@ -193,9 +196,9 @@ public:
   vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
   vtkIdType GetNumberOfTextureBytes();     ///< size of the table
   int GetNumberOfThreads();                ///< threads that took part
-  int GetNumberOfSamplesUsed();            ///< rays a texel; differs from SamplesPerTexel with TargetError
-  double GetEstimatedError();              ///< RMS error a texel that the pilot found, 0 without TargetError
-  double GetBakeSeconds();                 ///< wall time of the whole execution
+  int GetNumberOfSamplesUsed(); ///< rays a texel; differs from SamplesPerTexel with TargetError
+  double GetEstimatedError();   ///< RMS error a texel that the pilot found, 0 without TargetError
+  double GetBakeSeconds();      ///< wall time of the whole execution
   ///@}
 
 protected:
