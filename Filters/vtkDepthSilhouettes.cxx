@@ -154,7 +154,8 @@ void vtkDepthSilhouettes::PrepareImageData(vtkInformationVector** inputVector,
   vtkNew<vtkFloatArray> silhouette;
   silhouette->SetName(SilhouetteName);
   silhouette->SetNumberOfTuples(input->GetNumberOfPoints());
-  output->GetPointData()->SetScalars(silhouette);
+  output->GetPointData()->AddArray(silhouette); // SetScalars would drop the input's scalars
+  output->GetPointData()->SetActiveScalars(SilhouetteName);
 
   inDataObjects[0][0] = input;
   outDataObjects[0] = output;

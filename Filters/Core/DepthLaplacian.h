@@ -18,7 +18,8 @@
 /// runs straight through the grid the value is 3 J behind, -3 J in front and 0 beyond: one line,
 /// one pixel wide. On a diagonal the line closes its corners (pixels that touch the front by a
 /// corner only have 1 J). Planes in parallel projection give 0, and surfaces that bulge towards the
-/// eye, such as spheres, give a negative value: neither has lines inside.
+/// eye, such as spheres, give a negative value: neither has lines inside. In the outermost pixels
+/// the repeated border counts a plane that recedes towards it with 3 times its slope per pixel.
 namespace po
 {
 
