@@ -253,9 +253,6 @@ void SilhouettePainter::ComputeDistances(const po::WindowToEye& windowToEye)
   vtkShaderProgram* program = this->DistanceQuad->Program;
   this->Window->GetShaderCache()->ReadyShaderProgram(program);
   const ActiveTexture depth(program, "zBuffer", this->Depth);
-  const int size[2] = { static_cast<int>(this->Depth->GetWidth()),
-    static_cast<int>(this->Depth->GetHeight()) };
-  program->SetUniform2i("imageSize", size);
   program->SetUniformi("perspective", windowToEye.Perspective ? 1 : 0);
   SetMatrix(program, "windowToEye", windowToEye.Matrix);
   this->DrawInto(this->Distances, *this->DistanceQuad);
@@ -280,8 +277,6 @@ void SilhouettePainter::DrawLines(const SilhouetteViewport& viewport, const Silh
   this->Window->GetShaderCache()->ReadyShaderProgram(program);
   const ActiveTexture distances(program, "distances", this->Distances);
   const ActiveTexture farthest(program, "farthestDistance", this->Farthest.back());
-  const int origin[2] = { viewport.X, viewport.Y };
-  program->SetUniform2i("imageOrigin", origin);
   program->SetUniformf("threshold", static_cast<float>(style.Edges.Threshold));
   program->SetUniformf("backgroundDepth", static_cast<float>(style.Edges.BackgroundDepth));
   program->SetUniformf("automaticShare", static_cast<float>(po::AutomaticThresholdShare));

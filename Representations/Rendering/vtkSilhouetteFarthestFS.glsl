@@ -8,12 +8,16 @@
 const float BACKGROUND = 3.4e38;
 const int BLOCK = 8;
 
+in vec2 texCoord;
+
 uniform sampler2D distances;
 
 void main()
 {
-  ivec2 begin = ivec2(gl_FragCoord.xy) * BLOCK;
-  ivec2 stop = min(begin + BLOCK, textureSize(distances, 0));
+  ivec2 size = textureSize(distances, 0);
+  ivec2 blocks = (size + BLOCK - 1) / BLOCK; // what is drawn into
+  ivec2 begin = ivec2(texCoord * vec2(blocks)) * BLOCK;
+  ivec2 stop = min(begin + BLOCK, size);
   float farthest = BACKGROUND;
   for (int j = begin.y; j < stop.y; ++j)
   {

@@ -8,13 +8,14 @@
 
 const float BACKGROUND = 3.4e38;
 
+in vec2 texCoord;
+
 uniform sampler2D distances;
 uniform sampler2D farthestDistance; // one texel; read if threshold or background is automatic
 uniform float threshold;            // 0: automatic
 uniform float backgroundDepth;      // 0: automatic
 uniform float automaticShare;
 uniform float backgroundMargin;
-uniform ivec2 imageOrigin;
 uniform vec4 lineColor;
 
 float distanceAt(ivec2 pixel, float background)
@@ -54,7 +55,8 @@ void main()
     background =
       backgroundDepth > 0.0 ? backgroundDepth : farthest + backgroundMargin * max(edge, automatic);
   }
-  if (!(laplacian(ivec2(gl_FragCoord.xy) - imageOrigin, background) > edge))
+  ivec2 pixel = ivec2(texCoord * vec2(textureSize(distances, 0)));
+  if (!(laplacian(pixel, background) > edge))
   {
     discard;
   }
