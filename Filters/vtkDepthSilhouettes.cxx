@@ -39,7 +39,8 @@ vtkIdType PixelsOfSlice(const int extent[6])
 template <typename T>
 po::DepthImage<T> Slice(const T* depth, const int extent[6], int k)
 {
-  return { depth + k * PixelsOfSlice(extent), extent[1] - extent[0] + 1, extent[3] - extent[2] + 1 };
+  return { depth + k * PixelsOfSlice(extent), extent[1] - extent[0] + 1,
+    extent[3] - extent[2] + 1 };
 }
 
 /// Calls `work` with the array's values as const float* or const double*.
@@ -176,13 +177,15 @@ int vtkDepthSilhouettes::RequestData(
   const po::SilhouetteParameters parameters{ this->Threshold, this->BackgroundDepth };
   this->Internal->Depth = depth;
   this->Internal->Rules.clear();
-  WithValues(depth, [&](const auto* values) {
-    for (int k = 0; k <= extent[5] - extent[4]; ++k)
+  WithValues(depth,
+    [&](const auto* values)
     {
-      const auto farthest = po::FarthestDepth(Slice(values, extent, k));
-      this->Internal->Rules.push_back(po::ResolveEdgeRule(parameters, farthest));
-    }
-  });
+      for (int k = 0; k <= extent[5] - extent[4]; ++k)
+      {
+        const auto farthest = po::FarthestDepth(Slice(values, extent, k));
+        this->Internal->Rules.push_back(po::ResolveEdgeRule(parameters, farthest));
+      }
+    });
 
   const int done = this->Superclass::RequestData(request, inputVector, outputVector);
   this->Internal->Depth = nullptr;
@@ -197,13 +200,15 @@ void vtkDepthSilhouettes::ThreadedRequestData(vtkInformation*, vtkInformationVec
   auto* silhouette = vtkFloatArray::SafeDownCast(outData[0]->GetPointData()->GetScalars());
   const po::PixelBlock block{ piece[0] - extent[0], piece[1] - extent[0] + 1, piece[2] - extent[2],
     piece[3] - extent[2] + 1 };
-  WithValues(this->Internal->Depth, [&](const auto* values) {
-    for (int k = piece[4] - extent[4]; k <= piece[5] - extent[4]; ++k)
+  WithValues(this->Internal->Depth,
+    [&](const auto* values)
     {
-      po::MarkSilhouettes(Slice(values, extent, k), this->Internal->Rules[k], block,
-        silhouette->GetPointer(k * PixelsOfSlice(extent)));
-    }
-  });
+      for (int k = piece[4] - extent[4]; k <= piece[5] - extent[4]; ++k)
+      {
+        po::MarkSilhouettes(Slice(values, extent, k), this->Internal->Rules[k], block,
+          silhouette->GetPointer(k * PixelsOfSlice(extent)));
+      }
+    });
 }
 
 void vtkDepthSilhouettes::PrintSelf(ostream& os, vtkIndent indent)

@@ -81,8 +81,7 @@ template std::optional<double> FarthestDepth(const DepthImage<float>&);
 template std::optional<double> FarthestDepth(const DepthImage<double>&);
 template double DepthLaplacian(const DepthImage<float>&, int, int, double);
 template double DepthLaplacian(const DepthImage<double>&, int, int, double);
-template void MarkSilhouettes(
-  const DepthImage<float>&, const EdgeRule&, const PixelBlock&, float*);
+template void MarkSilhouettes(const DepthImage<float>&, const EdgeRule&, const PixelBlock&, float*);
 template void MarkSilhouettes(
   const DepthImage<double>&, const EdgeRule&, const PixelBlock&, float*);
 

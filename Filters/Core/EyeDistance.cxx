@@ -31,8 +31,7 @@ double EyeDistance(const WindowToEye& windowToEye, double x, double y, double z)
   std::array<double, 4> eye{};
   for (int row = 0; row < 4; ++row)
   {
-    eye[row] =
-      m[4 * row] * x + m[4 * row + 1] * y + m[4 * row + 2] * (1.0 - z) + m[4 * row + 3];
+    eye[row] = m[4 * row] * x + m[4 * row + 1] * y + m[4 * row + 2] * (1.0 - z) + m[4 * row + 3];
   }
   // The eye looks along -z.
   return windowToEye.Perspective ? std::hypot(eye[0], eye[1], eye[2]) / std::abs(eye[3])

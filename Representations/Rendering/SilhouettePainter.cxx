@@ -69,7 +69,7 @@ void SetMatrix(vtkShaderProgram* program, const char* name, const po::Matrix4& m
   program->SetUniformMatrix4x4(name, columns.data());
 }
 
-/// Everything that Paint changes is as before when this object ends.
+/// Everything that drawing changes is as before when this object ends.
 struct SavedState
 {
   explicit SavedState(vtkOpenGLState* state)
@@ -91,11 +91,18 @@ struct SavedState
   vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
 };
 
+void PrepareToDraw(vtkOpenGLState* state)
+{
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_BLEND);
+  state->vtkglDisable(GL_DEPTH_TEST);
+  state->vtkglDepthMask(GL_FALSE);
+}
+
 } // namespace
 
-std::string SilhouettePainter::Paint(vtkOpenGLRenderWindow* window,
-  const SilhouetteViewport& viewport, const po::WindowToEye& windowToEye,
-  const SilhouetteStyle& style)
+std::string SilhouettePainter::ReadDepth(vtkOpenGLRenderWindow* window,
+  const SilhouetteViewport& viewport, const po::WindowToEye& windowToEye, bool whole)
 {
   GLint frame = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &frame);
@@ -107,11 +114,7 @@ std::string SilhouettePainter::Paint(vtkOpenGLRenderWindow* window,
 
   vtkOpenGLState* state = window->GetState();
   const SavedState saved(state);
-  state->vtkglDisable(GL_SCISSOR_TEST);
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_FALSE);
-
+  PrepareToDraw(state);
   state->PushFramebufferBindings();
   this->Allocate(window, viewport, format);
   const bool built = this->BuildPrograms();
@@ -119,19 +122,17 @@ std::string SilhouettePainter::Paint(vtkOpenGLRenderWindow* window,
   if (copied)
   {
     this->ComputeDistances(windowToEye);
-    if (style.Edges.Threshold == 0.0 || style.Edges.BackgroundDepth == 0.0)
+    if (whole || !this->FarthestOfWhole)
     {
       this->FindFarthest();
     }
   }
   state->PopFramebufferBindings();
-  if (!copied)
+  if (!built)
   {
-    return built ? "The depth of the frame buffer cannot be copied (format not supported)."
-                 : "The silhouette shaders do not compile.";
+    return "The silhouette shaders do not compile.";
   }
-  this->DrawLines(viewport, style);
-  return {};
+  return copied ? "" : "The depth of the frame buffer cannot be copied (format not supported).";
 }
 
 bool SilhouettePainter::DepthFormat::operator==(const DepthFormat& other) const
@@ -181,7 +182,10 @@ void SilhouettePainter::Allocate(
   {
     return;
   }
-  this->ReleaseGraphicsResources();
+  if (this->Window != window)
+  {
+    this->ReleaseGraphicsResources();
+  }
   this->Window = window;
   this->Format = format;
 
@@ -193,6 +197,7 @@ void SilhouettePainter::Allocate(
                  : this->Depth->AllocateDepth(width, height, format.Type);
 
   this->Distances = this->AllocateFloat(width, height);
+  this->Farthest.clear();
   int columns = viewport.Width;
   int rows = viewport.Height;
   do
@@ -269,25 +274,30 @@ void SilhouettePainter::FindFarthest()
     this->DrawInto(level, *this->FarthestQuad);
     source = level;
   }
+  this->FarthestOfWhole = source;
 }
 
-void SilhouettePainter::DrawLines(const SilhouetteViewport& viewport, const SilhouetteStyle& style)
+void SilhouettePainter::DrawLines(
+  const SilhouetteViewport& viewport, int margin, const SilhouetteStyle& style)
 {
+  vtkOpenGLState* state = this->Window->GetState();
+  const SavedState saved(state);
+  PrepareToDraw(state);
+  state->vtkglViewport(viewport.X, viewport.Y, viewport.Width, viewport.Height);
+  state->vtkglEnable(GL_BLEND);
+  state->vtkglBlendFuncSeparate(
+    GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+
   vtkShaderProgram* program = this->LineQuad->Program;
   this->Window->GetShaderCache()->ReadyShaderProgram(program);
   const ActiveTexture distances(program, "distances", this->Distances);
-  const ActiveTexture farthest(program, "farthestDistance", this->Farthest.back());
+  const ActiveTexture farthest(program, "farthestDistance", this->FarthestOfWhole);
+  program->SetUniformi("margin", margin);
   program->SetUniformf("threshold", static_cast<float>(style.Edges.Threshold));
   program->SetUniformf("backgroundDepth", static_cast<float>(style.Edges.BackgroundDepth));
   program->SetUniformf("automaticShare", static_cast<float>(po::AutomaticThresholdShare));
   program->SetUniformf("backgroundMargin", static_cast<float>(po::BackgroundMargin));
   program->SetUniform4f("lineColor", style.Color.data());
-
-  vtkOpenGLState* state = this->Window->GetState();
-  state->vtkglViewport(viewport.X, viewport.Y, viewport.Width, viewport.Height);
-  state->vtkglEnable(GL_BLEND);
-  state->vtkglBlendFuncSeparate(
-    GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   this->LineQuad->Render();
 }
 

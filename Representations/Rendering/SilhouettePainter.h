@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-/// Pixels of the bound frame buffer.
+/// Pixels of a frame buffer.
 struct SilhouetteViewport
 {
   int X;
@@ -34,14 +34,21 @@ struct SilhouetteStyle
   std::array<float, 4> Color;
 };
 
-/// Draws silhouettes over the frame buffer that is bound for drawing, from that buffer's depth.
-/// Keeps textures of the viewport's size and the shader programs between calls.
+/// Reads the depth of a frame buffer and draws silhouettes over the same or another one. Keeps
+/// textures of the viewport's size and the shader programs between calls.
 class SilhouettePainter
 {
 public:
-  /// Returns what went wrong; empty if nothing did.
-  std::string Paint(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
-    const po::WindowToEye& windowToEye, const SilhouetteStyle& style);
+  /// Reads the depth of the frame buffer that is bound for drawing. `whole` says that the viewport
+  /// shows the whole picture; automatic values of a tile are those of the last whole picture (of
+  /// the tile itself if there was none), so that tiles fit together. Returns what went wrong;
+  /// empty if nothing did.
+  std::string ReadDepth(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
+    const po::WindowToEye& windowToEye, bool whole);
+
+  /// Draws over the frame buffer that is bound for drawing. The depth that was read reaches
+  /// `margin` pixels beyond the viewport on each side.
+  void DrawLines(const SilhouetteViewport& viewport, int margin, const SilhouetteStyle& style);
 
   void ReleaseGraphicsResources();
 
@@ -66,8 +73,6 @@ private:
   bool CopyDepth(unsigned int frame, const SilhouetteViewport& viewport);
   void ComputeDistances(const po::WindowToEye& windowToEye);
   void FindFarthest();
-  void DrawLines(const SilhouetteViewport& viewport, const SilhouetteStyle& style);
-
   void DrawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> Window;
@@ -77,6 +82,8 @@ private:
   Texture Distances;
   /// Each level holds the farthest distance of 8 x 8 pixels of the one before; the last is 1 x 1.
   std::vector<Texture> Farthest;
+  /// The last level as found for the last whole picture.
+  Texture FarthestOfWhole;
   std::unique_ptr<vtkOpenGLQuadHelper> DistanceQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> FarthestQuad;
   std::unique_ptr<vtkOpenGLQuadHelper> LineQuad;

@@ -4,14 +4,20 @@
 #include "SilhouettePainter.h"
 
 #include "vtkCamera.h"
+#include "vtkHomogeneousTransform.h"
 #include "vtkMatrix4x4.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
+#include "vtkTransform.h"
 
 #include <cmath>
+#include <optional>
 
 vtkStandardNewMacro(vtkDepthSilhouettePass);
 
@@ -48,6 +54,28 @@ std::optional<po::WindowToEye> WindowToEyeOf(vtkRenderer* renderer)
   vtkMatrix4x4::Invert(projection->GetData(), inverse.data());
   return po::MakeWindowToEye(inverse);
 }
+
+vtkOpenGLRenderWindow* WindowOf(const vtkRenderState* state)
+{
+  return vtkOpenGLRenderWindow::SafeDownCast(state->GetRenderer()->GetRenderWindow());
+}
+
+/// Not with an empty viewport or a degenerate camera.
+bool CanBeSeen(const vtkRenderState* state)
+{
+  const SilhouetteViewport viewport = ViewportOf(state);
+  return viewport.Width > 0 && viewport.Height > 0 && WindowToEyeOf(state->GetRenderer());
+}
+
+/// The window shows one tile of a larger picture.
+bool IsTile(const vtkRenderState* state)
+{
+  const int* scale = WindowOf(state)->GetTileScale();
+  return scale[0] > 1 || scale[1] > 1;
+}
+
+/// Pixels around a tile that the Laplacian of the tile's pixels needs.
+constexpr int TileMargin = 1;
 
 } // namespace
 
@@ -88,34 +116,79 @@ void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
     vtkWarningMacro("There is no delegate pass: nothing is drawn.");
     return;
   }
-  this->DelegatePass->Render(state);
-  this->NumberOfRenderedProps += this->DelegatePass->GetNumberOfRenderedProps();
-
   // While a selection is made, colours are identifiers and must stay untouched.
   const bool selecting = state->GetRenderer()->GetSelector() != nullptr;
-  if (this->LineVisibility && !selecting && this->CheckParameters())
-  {
-    this->DrawLines(state);
-  }
-}
+  const bool lines =
+    this->LineVisibility && !selecting && this->CheckParameters() && CanBeSeen(state);
+  const bool tile = lines && IsTile(state);
 
-void vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state)
-{
-  const SilhouetteViewport viewport = ViewportOf(state);
-  const auto windowToEye = WindowToEyeOf(state->GetRenderer());
-  if (viewport.Width <= 0 || viewport.Height <= 0 || !windowToEye)
+  std::string error = tile ? this->ReadDepthAroundTile(state) : std::string();
+  this->DelegatePass->Render(state);
+  this->NumberOfRenderedProps += this->DelegatePass->GetNumberOfRenderedProps();
+  if (lines && !tile)
   {
-    return; // an empty viewport or a degenerate camera shows nothing
+    error = this->ReadDepth(state);
   }
-  auto* window = vtkOpenGLRenderWindow::SafeDownCast(state->GetRenderer()->GetRenderWindow());
-  const SilhouetteStyle style{ { this->Threshold, this->BackgroundDepth },
-    { static_cast<float>(this->Color[0]), static_cast<float>(this->Color[1]),
-      static_cast<float>(this->Color[2]), static_cast<float>(this->Opacity) } };
-  const std::string error = this->Internal->Painter.Paint(window, viewport, *windowToEye, style);
   if (!error.empty())
   {
     vtkErrorMacro(<< error << " No silhouettes are drawn.");
   }
+  else if (lines)
+  {
+    this->DrawLines(state, tile ? TileMargin : 0);
+  }
+}
+
+std::string vtkDepthSilhouettePass::ReadDepth(const vtkRenderState* state)
+{
+  return this->Internal->Painter.ReadDepth(
+    WindowOf(state), ViewportOf(state), *WindowToEyeOf(state->GetRenderer()), true);
+}
+
+std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* state)
+{
+  vtkRenderer* renderer = state->GetRenderer();
+  vtkOpenGLRenderWindow* window = WindowOf(state);
+  const SilhouetteViewport tile = ViewportOf(state);
+  const SilhouetteViewport around{ 0, 0, tile.Width + 2 * TileMargin,
+    tile.Height + 2 * TileMargin };
+
+  window->GetState()->PushFramebufferBindings();
+  vtkNew<vtkOpenGLFramebufferObject> frame;
+  frame->SetContext(window);
+  frame->PopulateFramebuffer(
+    around.Width, around.Height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
+
+  // The tile's picture shrinks to the middle of the frame, so that its pixels stay what they are.
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkSmartPointer<vtkHomogeneousTransform> own = camera->GetUserTransform();
+  vtkNew<vtkTransform> shrink;
+  shrink->Scale(static_cast<double>(tile.Width) / around.Width,
+    static_cast<double>(tile.Height) / around.Height, 1.0);
+  if (own)
+  {
+    shrink->Concatenate(own->GetMatrix());
+  }
+  camera->SetUserTransform(shrink);
+
+  vtkRenderState inside(renderer);
+  inside.SetPropArrayAndCount(state->GetPropArray(), state->GetPropArrayCount());
+  inside.SetFrameBuffer(frame);
+  this->DelegatePass->Render(&inside);
+  const std::string error =
+    this->Internal->Painter.ReadDepth(window, around, *WindowToEyeOf(renderer), false);
+
+  camera->SetUserTransform(own);
+  window->GetState()->PopFramebufferBindings();
+  return error;
+}
+
+void vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state, int margin)
+{
+  const SilhouetteStyle style{ { this->Threshold, this->BackgroundDepth },
+    { static_cast<float>(this->Color[0]), static_cast<float>(this->Color[1]),
+      static_cast<float>(this->Color[2]), static_cast<float>(this->Opacity) } };
+  this->Internal->Painter.DrawLines(ViewportOf(state), margin, style);
 }
 
 void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)

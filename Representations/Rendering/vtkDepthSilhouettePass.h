@@ -21,8 +21,10 @@
  * @endcode
  *
  * Each renderer needs a pass of its own: the pass keeps textures of the renderer's size.
- * Automatic values are found in each rendered image; where a picture is put together from tiles,
- * set Threshold so that all of them have the same.
+ *
+ * Where a picture is put together from tiles (large screenshots), the delegate is drawn a second
+ * time for each tile, to know the depth one pixel beyond it, and automatic values are those of the
+ * last frame that was not a tile: lines continue across tiles.
  *
  * Errors (the delegate is drawn, lines are not): a negative or non-finite Threshold or
  * BackgroundDepth, a frame buffer without depth, a shader that does not compile.
@@ -34,6 +36,7 @@
 #include "vtkImageProcessingPass.h"
 
 #include <memory>
+#include <string>
 
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkDepthSilhouettePass : public vtkImageProcessingPass
 {
@@ -104,7 +107,9 @@ private:
   void operator=(const vtkDepthSilhouettePass&) = delete;
 
   bool CheckParameters();
-  void DrawLines(const vtkRenderState* state);
+  std::string ReadDepth(const vtkRenderState* state);
+  std::string ReadDepthAroundTile(const vtkRenderState* state);
+  void DrawLines(const vtkRenderState* state, int margin);
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

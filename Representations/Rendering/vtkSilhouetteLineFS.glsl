@@ -12,6 +12,7 @@ in vec2 texCoord;
 
 uniform sampler2D distances;
 uniform sampler2D farthestDistance; // one texel; read if threshold or background is automatic
+uniform int margin; // pixels of `distances` beyond the picture on each side
 uniform float threshold;            // 0: automatic
 uniform float backgroundDepth;      // 0: automatic
 uniform float automaticShare;
@@ -55,7 +56,8 @@ void main()
     background =
       backgroundDepth > 0.0 ? backgroundDepth : farthest + backgroundMargin * max(edge, automatic);
   }
-  ivec2 pixel = ivec2(texCoord * vec2(textureSize(distances, 0)));
+  ivec2 picture = textureSize(distances, 0) - 2 * margin;
+  ivec2 pixel = ivec2(texCoord * vec2(picture)) + margin;
   if (!(laplacian(pixel, background) > edge))
   {
     discard;

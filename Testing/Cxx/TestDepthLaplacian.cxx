@@ -31,7 +31,8 @@ std::vector<double> MakeDepth(const DepthFunction& depth)
   return image;
 }
 
-std::vector<float> Lines(const std::vector<double>& depth, const po::SilhouetteParameters& parameters)
+std::vector<float> Lines(
+  const std::vector<double>& depth, const po::SilhouetteParameters& parameters)
 {
   const po::DepthImage<double> image{ depth.data(), Width, Height };
   const po::EdgeRule rule = po::ResolveEdgeRule(parameters, po::FarthestDepth(image));
@@ -41,8 +42,7 @@ std::vector<float> Lines(const std::vector<double>& depth, const po::SilhouetteP
 }
 
 /// Fails with the pixel's position where `lines` is not what `expected` says.
-void ExpectLines(
-  const std::vector<float>& lines, const std::function<bool(int, int)>& expected)
+void ExpectLines(const std::vector<float>& lines, const std::function<bool(int, int)>& expected)
 {
   for (int j = 0; j < Height; ++j)
   {
@@ -116,11 +116,13 @@ TEST(DepthLaplacian, PlanesInPerspectiveHaveNoLine)
 
 TEST(DepthLaplacian, BulgingSurfaceIsNegativeInside)
 {
-  const auto depth = MakeDepth([](int i, int j) {
-    const double x = (i - 20) / 25.0;
-    const double y = (j - 18) / 25.0;
-    return 5.0 - std::sqrt(2.0 - x * x - y * y);
-  });
+  const auto depth = MakeDepth(
+    [](int i, int j)
+    {
+      const double x = (i - 20) / 25.0;
+      const double y = (j - 18) / 25.0;
+      return 5.0 - std::sqrt(2.0 - x * x - y * y);
+    });
   const po::DepthImage<double> image{ depth.data(), Width, Height };
   for (int j = 1; j < Height - 1; ++j)
   {
@@ -152,13 +154,11 @@ TEST(DepthLaplacian, StepOnSlantedPlanesGivesOneLine)
 TEST(DepthLaplacian, OutlineAgainstBackgroundAtAnyThreshold)
 {
   const auto inside = [](int i, int j) { return i >= 10 && i < 30 && j >= 8 && j < 21; };
-  const auto outline = [&](int i, int j) {
-    return i >= 9 && i < 31 && j >= 7 && j < 22 && !inside(i, j);
-  };
+  const auto outline = [&](int i, int j)
+  { return i >= 9 && i < 31 && j >= 7 && j < 22 && !inside(i, j); };
   for (const double background : { Infinity, -Infinity, NaN })
   {
-    const auto depth =
-      MakeDepth([&](int i, int j) { return inside(i, j) ? 3.0 : background; });
+    const auto depth = MakeDepth([&](int i, int j) { return inside(i, j) ? 3.0 : background; });
     for (const double threshold : { 0.0, 1e-12, 0.7, 1e6 })
     {
       ExpectLines(Lines(depth, { threshold, 0.0 }), outline);
@@ -185,9 +185,9 @@ TEST(DepthLaplacian, OnlyBackgroundHasNoLine)
 TEST(DepthLaplacian, SinglePixelIsSurrounded)
 {
   const auto depth = MakeDepth([](int i, int j) { return i == 5 && j == 6 ? 1.0 : NaN; });
-  ExpectLines(Lines(depth, {}), [](int i, int j) {
-    return std::abs(i - 5) <= 1 && std::abs(j - 6) <= 1 && !(i == 5 && j == 6);
-  });
+  ExpectLines(Lines(depth, {}),
+    [](int i, int j)
+    { return std::abs(i - 5) <= 1 && std::abs(j - 6) <= 1 && !(i == 5 && j == 6); });
 }
 
 TEST(DepthLaplacian, LinesReachTheBorder)

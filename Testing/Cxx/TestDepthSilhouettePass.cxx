@@ -9,6 +9,7 @@
 #include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
 #include "vtkConeSource.h"
+#include "vtkCubeSource.h"
 #include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkMatrix4x4.h"
@@ -23,6 +24,7 @@
 #include "vtkSmartPointer.h"
 #include "vtkSphereSource.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkWindowToImageFilter.h"
 
 #include <gtest/gtest.h>
 
@@ -117,8 +119,7 @@ vtkSmartPointer<vtkImageData> DepthOf(vtkRenderWindow* window, vtkRenderer* rend
   const int* origin = renderer->GetOrigin();
   const int* size = renderer->GetSize();
   vtkNew<vtkFloatArray> z;
-  window->GetZbufferData(
-    origin[0], origin[1], origin[0] + size[0] - 1, origin[1] + size[1] - 1, z);
+  window->GetZbufferData(origin[0], origin[1], origin[0] + size[0] - 1, origin[1] + size[1] - 1, z);
   vtkNew<vtkImageData> image;
   image->SetDimensions(size[0], size[1], 1);
   image->GetPointData()->SetScalars(z);
@@ -194,8 +195,8 @@ void ExpectAgreementForAllParameters(Scene& scene)
   {
     for (const double background : { 0.0, 20.0 })
     {
-      SCOPED_TRACE(testing::Message() << "Threshold " << threshold << ", BackgroundDepth "
-                                      << background);
+      SCOPED_TRACE(
+        testing::Message() << "Threshold " << threshold << ", BackgroundDepth " << background);
       scene.Pass->SetThreshold(threshold);
       scene.Pass->SetBackgroundDepth(background);
       ExpectAgreement(scene, scene.Renderer, scene.Pass);
@@ -266,6 +267,46 @@ TEST(DepthSilhouettePass, EachViewportHasItsOwnLines)
   second->ResetCameraClippingRange();
   ExpectAgreement(scene, scene.Renderer, scene.Pass);
   ExpectAgreement(scene, second, pass);
+}
+
+TEST(DepthSilhouettePass, LinesContinueAcrossTiles)
+{
+  Scene scene;
+  scene.Window->SetSize(320, 240);
+  // The cube's lower edge and its left one lie on the seams between the tiles.
+  vtkNew<vtkCubeSource> cube;
+  cube->SetBounds(0.0, 0.4, 0.0, 0.5, 1.0, 1.5);
+  AddProp(scene.Renderer, cube, 0.6);
+  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetPosition(0.0, 0.0, 8.0);
+  camera->SetParallelScale(1.5);
+  scene.Renderer->ResetCameraClippingRange();
+  const auto whole = Pixels(scene.Window, scene.Renderer);
+
+  scene.Window->SetSize(160, 120);
+  scene.Window->Render();
+  vtkNew<vtkWindowToImageFilter> tiles;
+  tiles->SetInput(scene.Window);
+  tiles->SetScale(2);
+  tiles->ReadFrontBufferOff();
+  tiles->Update();
+  auto* rgb = vtkUnsignedCharArray::SafeDownCast(tiles->GetOutput()->GetPointData()->GetScalars());
+  ASSERT_EQ(rgb->GetNumberOfValues(), static_cast<vtkIdType>(whole.size()));
+  const std::vector<unsigned char> joined(
+    rgb->GetPointer(0), rgb->GetPointer(0) + rgb->GetNumberOfValues());
+  int lines = 0;
+  int different = 0;
+  for (std::size_t pixel = 0; pixel < whole.size() / 3; ++pixel)
+  {
+    lines += IsLine(whole, pixel);
+    different += IsLine(whole, pixel) != IsLine(joined, pixel);
+  }
+  EXPECT_GT(lines, 500);
+  // The tiles' matrices round differently, so that a surface may gain or lose a pixel at its edge;
+  // one side of the cube has 40 pixels or more.
+  EXPECT_LE(different, 8);
 }
 
 TEST(DepthSilhouettePass, ChangesNothingButTheLine)
@@ -343,9 +384,8 @@ TEST(DepthSilhouettePass, WrongParametersAreReportedAndDrawNoLines)
   std::string errors;
   vtkNew<vtkCallbackCommand> catcher;
   catcher->SetClientData(&errors);
-  catcher->SetCallback([](vtkObject*, unsigned long, void* data, void* text) {
-    *static_cast<std::string*>(data) = static_cast<const char*>(text);
-  });
+  catcher->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
   scene.Pass->AddObserver(vtkCommand::ErrorEvent, catcher);
   for (const double wrong : { -1.0, std::numeric_limits<double>::quiet_NaN() })
   {
