@@ -86,12 +86,12 @@ inline void expectDefaultsOfXml(
     EXPECT_EQ(property->GetAttribute("command"), "Set" + name);
     EXPECT_TRUE(property->FindNestedElementWithName("Documentation")) << name << " has no help";
     const char* text = property->GetAttribute("default_values");
-    ASSERT_TRUE(text) << name << " has no default";
     if (expected->second.isText)
     {
-      EXPECT_EQ(expected->second.text, text) << name;
+      EXPECT_EQ(expected->second.text, text ? text : "") << name; // VTK drops empty attributes
       continue;
     }
+    ASSERT_TRUE(text) << name << " has no default";
     std::istringstream stream(text);
     for (const double number : expected->second.numbers)
     {
