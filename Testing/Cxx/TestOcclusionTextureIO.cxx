@@ -22,6 +22,7 @@
 
 #include <openexr.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -364,8 +365,25 @@ TEST(OcclusionTextureIO, ForeignFilesAreErrorsThatNameThem)
   EXPECT_HAS(ErrorOfReading(""), "No file name");
 }
 
+TEST(OcclusionTextureIO, AbsurdSizeOfAnAttributeIsNotAllocated)
+{
+  TemporaryFolder folder;
+  const std::string fileName = folder.File("a.exr");
+  Write(BakedBytes(4, 3, 4), fileName);
+  Bytes bytes = ReadBytes(fileName);
+  const std::string before("comments\0string\0", 16);
+  const auto at = std::search(bytes.begin(), bytes.end(), before.begin(), before.end());
+  ASSERT_NE(at, bytes.end());
+  *(at + before.size() + 3) = 0x4d; // 1.3 gigabytes
+  WriteBytes(fileName, bytes);
+  const long peak = PeakMegabytes();
+  EXPECT_HAS(ErrorOfReading(fileName), "header is damaged");
+  EXPECT_LT(PeakMegabytes(), peak + 100);
+}
+
 TEST(OcclusionTextureIO, DamagedFilesNeverCrash)
 {
+  const long peak = PeakMegabytes();
   TemporaryFolder folder;
   for (PolyData baked : { BakedBytes(300, 20, 8), BakedFloats(30, 11, 5) })
   {
@@ -399,6 +417,7 @@ TEST(OcclusionTextureIO, DamagedFilesNeverCrash)
     EXPECT_GT(read, 0);
     EXPECT_GT(refused, 300);
   }
+  EXPECT_LT(PeakMegabytes(), peak + 100);
 }
 
 TEST(OcclusionTextureIO, InputThatIsNotBakedIsAnError)
