@@ -2,6 +2,7 @@
 #include "OcclusionTextures.h"
 
 #include "TexelMap.h"
+#include "TextureTable.h"
 
 namespace po
 {
@@ -14,8 +15,7 @@ OcclusionTextures::OcclusionTextures(int resolution, const std::uint8_t* bytes, 
 {
   for (std::size_t code = 0; code < decoded_.size(); ++code)
   {
-    const double root = static_cast<double>(code) / 255;
-    decoded_[code] = static_cast<float>(maximum * root * root);
+    decoded_[code] = static_cast<float>(decodeGamma2(static_cast<std::uint8_t>(code), maximum));
   }
 }
 

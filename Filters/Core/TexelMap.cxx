@@ -64,10 +64,10 @@ double texelAngularRadius(int resolution, int row)
   return radius;
 }
 
-BilinearTexels bilinearTexels(int resolution, TextureCoordinate c)
+BilinearTexels bilinearTexels(int columns, int rows, TextureCoordinate c)
 {
-  const double x = c.u * resolution - 0.5;
-  const double y = c.v * resolution - 0.5;
+  const double x = c.u * columns - 0.5;
+  const double y = c.v * rows - 0.5;
   const double left = std::floor(x);
   const double above = std::floor(y);
   const auto fx = static_cast<float>(x - left);
@@ -75,12 +75,12 @@ BilinearTexels bilinearTexels(int resolution, TextureCoordinate c)
 
   const int i = static_cast<int>(left);
   const int j = static_cast<int>(above);
-  const int i0 = (i + resolution) % resolution;
-  const int i1 = (i + 1) % resolution;
-  const int j0 = std::clamp(j, 0, resolution - 1);
-  const int j1 = std::clamp(j + 1, 0, resolution - 1);
-  return { { texelIndex(resolution, j0, i0), texelIndex(resolution, j0, i1),
-             texelIndex(resolution, j1, i0), texelIndex(resolution, j1, i1) },
+  const int i0 = (i + columns) % columns;
+  const int i1 = (i + 1) % columns;
+  const int j0 = std::clamp(j, 0, rows - 1);
+  const int j1 = std::clamp(j + 1, 0, rows - 1);
+  return { { texelIndex(columns, j0, i0), texelIndex(columns, j0, i1), texelIndex(columns, j1, i0),
+             texelIndex(columns, j1, i1) },
     { (1 - fx) * (1 - fy), fx * (1 - fy), (1 - fx) * fy, fx * fy } };
 }
 }

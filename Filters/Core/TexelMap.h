@@ -46,13 +46,19 @@ struct TextureCoordinate
 [[nodiscard]] double texelAngularRadius(int resolution, int row);
 
 /// The four texels and weights of a bilinear lookup: wrapped in azimuth, clamped at the poles.
+/// Indices are row-major: row * columns + column.
 struct BilinearTexels
 {
   std::array<std::size_t, 4> index;
   std::array<float, 4> weight; ///< adds up to 1
 };
 
-[[nodiscard]] BilinearTexels bilinearTexels(int resolution, TextureCoordinate coordinate);
+[[nodiscard]] BilinearTexels bilinearTexels(int columns, int rows, TextureCoordinate coordinate);
+
+[[nodiscard]] inline BilinearTexels bilinearTexels(int resolution, TextureCoordinate coordinate)
+{
+  return bilinearTexels(resolution, resolution, coordinate);
+}
 }
 
 #endif

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_BakeSettings_h
+#define po_BakeSettings_h
+
+#include "Background.h"
+
+#include <cstdint>
+
+namespace po
+{
+/// How the texels of a table are stored.
+enum class Encoding
+{
+  UInt8Gamma2 = 0, ///< byte = round(255 sqrt(value / maximum)), maximum = the table's largest value
+  Float32Linear = 1, ///< the value itself
+};
+
+/// What a bake is asked for. Lengths are in the units of the input data.
+struct BakeSettings
+{
+  static constexpr int MaximumTextureResolution = 64;
+  static constexpr int MaximumSamplesPerTexel = 1 << 20;
+
+  int textureResolution = 16;    ///< T: a texture has T x T texels, 1 to 64
+  int samplesPerTexel = 49;      ///< the quality that this many jittered rays give, 1 to 2^20
+  double maximumDistance = 0;    ///< rays end there; 0 = unbounded
+  bool dilateInside = true;      ///< fill texels inside other spheres from their neighbours
+  double insideThreshold = 0.05; ///< a texel with a smaller outside share is inside, 0 to 1
+  Encoding encoding = Encoding::UInt8Gamma2;
+  std::uint64_t seed = 1;
+  Background background = UniformBackground{};
+};
+}
+
+#endif

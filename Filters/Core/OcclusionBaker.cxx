@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OcclusionBaker.h"
+
+#include "Dilation.h"
+#include "TexelMap.h"
+
+#include <algorithm>
+
+namespace po
+{
+namespace
+{
+/// Turns what an estimator finds into rows of a table and means, particle by particle.
+class TextureCollector
+{
+public:
+  TextureCollector(const BakeSettings& settings, std::size_t particles)
+    : settings_(settings)
+    , neighbours_(settings.textureResolution)
+    , table_(settings.textureResolution, particles)
+    , known_(table_.texelsPerRow())
+    , texture_(table_.texelsPerRow())
+  {
+    rowOf_.reserve(particles);
+    mean_.reserve(particles);
+    for (int row = 0; row < settings.textureResolution; ++row)
+    {
+      areas_.push_back(texelArea(settings.textureResolution, row));
+    }
+  }
+
+  void add(const RawTextures& raw)
+  {
+    for (std::size_t i = 0; i < raw.count; ++i)
+    {
+      const std::size_t offset = i * table_.texelsPerRow();
+      addParticle(raw.values + offset, raw.outsideShares + offset);
+    }
+  }
+
+  void finish(BakeResult& result)
+  {
+    result.rowOf = std::move(rowOf_);
+    result.mean = std::move(mean_);
+    result.table = encode(std::move(table_), settings_.encoding, result.rowOf);
+    result.counters.texturesStored = static_cast<std::uint64_t>(result.table.rows);
+    result.counters.particlesDark =
+      static_cast<std::uint64_t>(std::count(result.mean.begin(), result.mean.end(), 0.0f));
+  }
+
+private:
+  void addParticle(const float* values, const float* shares)
+  {
+    mean_.push_back(meanOutside(values, shares));
+    fillTexture(values, shares);
+    rowOf_.push_back(table_.insert(texture_.data()));
+  }
+
+  /// Mean over the area outside other spheres; 0 if there is none.
+  [[nodiscard]] float meanOutside(const float* values, const float* shares) const
+  {
+    double light = 0;
+    double area = 0;
+    const auto columns = static_cast<std::size_t>(settings_.textureResolution);
+    for (std::size_t texel = 0; texel < texture_.size(); ++texel)
+    {
+      const double outside = areas_[texel / columns] * static_cast<double>(shares[texel]);
+      light += outside * static_cast<double>(values[texel]);
+      area += outside;
+    }
+    return area > 0 ? static_cast<float>(light / area) : 0.0f;
+  }
+
+  /// Texels that lie inside get their value by dilation, or 0.
+  void fillTexture(const float* values, const float* shares)
+  {
+    std::copy(values, values + texture_.size(), texture_.begin());
+    bool anyInside = false;
+    for (std::size_t texel = 0; texel < texture_.size(); ++texel)
+    {
+      const bool inside = isInside(shares[texel]);
+      known_[texel] = inside ? 0 : 1;
+      anyInside = anyInside || inside;
+      texture_[texel] = inside ? 0.0f : texture_[texel];
+    }
+    if (anyInside && settings_.dilateInside)
+    {
+      dilate(neighbours_, texture_.data(), known_);
+    }
+  }
+
+  [[nodiscard]] bool isInside(float share) const
+  {
+    return share <= 0 || static_cast<double>(share) < settings_.insideThreshold;
+  }
+
+  const BakeSettings& settings_;
+  TexelNeighbours neighbours_;
+  TextureTable table_;
+  std::vector<double> areas_; ///< steradians of a texel, by row
+  std::vector<std::int32_t> rowOf_;
+  std::vector<float> mean_;
+  std::vector<std::uint8_t> known_; ///< of the texture at hand
+  std::vector<float> texture_;
+};
+}
+
+BakeScene::BakeScene(const SphereCloud& sphereCloud)
+  : cloud(sphereCloud)
+  , rays(sphereCloud.spheres)
+  , overlaps(cloud.spheres)
+{
+}
+
+void BakeCounters::add(const BakeCounters& other)
+{
+  particles += other.particles;
+  texels += other.texels;
+  rays += other.rays;
+  samplesInside += other.samplesInside;
+  texelsInside += other.texelsInside;
+  particlesBuried += other.particlesBuried;
+  particlesDark += other.particlesDark;
+  texturesStored += other.texturesStored;
+}
+
+double bakeMemory(std::size_t particles, const BakeSettings& settings)
+{
+  // Two hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
+  constexpr double bytesPerSphere = 300;
+  const double texels =
+    static_cast<double>(settings.textureResolution) * settings.textureResolution;
+  // The linear table stays until it is encoded; the encoded one is copied into the data set.
+  const double bytesPerTexel = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
+  return static_cast<double>(particles) * (bytesPerSphere + texels * bytesPerTexel);
+}
+
+BakeResult bakeOcclusion(const SphereCloud& cloud, const BakeSettings& settings,
+  const OcclusionEstimator& estimator, Progress& progress)
+{
+  BakeResult result;
+  const BakeScene scene(cloud);
+  TextureCollector collector(settings, cloud.spheres.size());
+  estimator.estimate(
+    scene, settings, progress, [&](const RawTextures& raw) { collector.add(raw); },
+    result.counters);
+  result.aborted = progress.aborted();
+  if (!result.aborted)
+  {
+    collector.finish(result);
+  }
+  return result;
+}
+}

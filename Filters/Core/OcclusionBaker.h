@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_OcclusionBaker_h
+#define po_OcclusionBaker_h
+
+#include "OcclusionEstimator.h"
+#include "TextureTable.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace po
+{
+/// The textures of a cloud. Vectors are in the order of the cloud's spheres.
+struct BakeResult
+{
+  EncodedTable table;
+  std::vector<std::int32_t> rowOf; ///< row of each particle's texture in the table
+  std::vector<float> mean; ///< mean visibility over the area outside other particles, linear
+  BakeCounters counters;
+  bool aborted = false; ///< the other members are then incomplete
+};
+
+/// Upper bound of the memory that a bake of `particles` needs at once, in bytes.
+///
+/// Equal textures are stored once, so that the real need is often much smaller.
+[[nodiscard]] double bakeMemory(std::size_t particles, const BakeSettings& settings);
+
+/// Bakes the visibility of the background onto all spheres of a cloud, in parallel.
+///
+/// The same input, settings and seed give the same bits for any number of threads.
+/// Throws std::runtime_error or std::bad_alloc when memory or Embree fails.
+[[nodiscard]] BakeResult bakeOcclusion(const SphereCloud& cloud, const BakeSettings& settings,
+  const OcclusionEstimator& estimator, Progress& progress);
+}
+
+#endif

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_OcclusionEstimator_h
+#define po_OcclusionEstimator_h
+
+#include "BakeSettings.h"
+#include "OverlapFinder.h"
+#include "Progress.h"
+#include "SphereCloud.h"
+#include "SphereScene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+
+namespace po
+{
+/// What a bake works on; all lengths local (see SphereCloud).
+struct BakeScene
+{
+  explicit BakeScene(const SphereCloud& cloud);
+
+  const SphereCloud& cloud;
+  SphereScene rays;
+  OverlapFinder overlaps;
+};
+
+/// What was done and what could be skipped.
+struct BakeCounters
+{
+  std::uint64_t particles = 0;       ///< particles baked
+  std::uint64_t texels = 0;          ///< their texels
+  std::uint64_t rays = 0;            ///< occlusion rays traced
+  std::uint64_t samplesInside = 0;   ///< samples inside another sphere: no ray, no weight
+  std::uint64_t texelsInside = 0;    ///< texels wholly inside another sphere: not sampled at all
+  std::uint64_t particlesBuried = 0; ///< particles inside one other sphere: not looked at further
+  std::uint64_t particlesDark = 0;   ///< particles that no light reaches
+  std::uint64_t texturesStored = 0;  ///< rows of the table
+  unsigned threads = 0;              ///< threads that took part
+
+  void add(const BakeCounters& other);
+};
+
+/// Textures of consecutive particles as an estimator finds them, before dilation and encoding.
+struct RawTextures
+{
+  std::size_t firstParticle;  ///< index in the cloud
+  std::size_t count;          ///< number of particles
+  const float* values;        ///< count * T * T linear values; 0 where the outside share is 0
+  const float* outsideShares; ///< count * T * T shares of the texel's area outside other spheres
+};
+
+/// One way of finding the visibility of the background from every texel.
+class OcclusionEstimator
+{
+public:
+  using Sink = std::function<void(const RawTextures&)>;
+
+  virtual ~OcclusionEstimator() = default;
+
+  /// Estimates all particles of the scene and hands them to `sink` in the order of the cloud, on
+  /// the calling thread. Returns early when `progress` says so; what was handed out is then
+  /// incomplete.
+  virtual void estimate(const BakeScene& scene, const BakeSettings& settings, Progress& progress,
+    const Sink& sink, BakeCounters& counters) const = 0;
+};
+}
+
+#endif

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OverlapFinder.h"
+
+#include <cmath>
+#include <limits>
+
+namespace po
+{
+namespace
+{
+/// A box edge moved outward by two units in the last place of the largest term, so that rounding
+/// can not lose a neighbour.
+float outward(float center, float reach)
+{
+  const float slack =
+    2 * std::numeric_limits<float>::epsilon() * (std::abs(center) + std::abs(reach));
+  return center + reach + std::copysign(slack, reach);
+}
+
+void sphereBounds(const RTCBoundsFunctionArguments* arguments)
+{
+  const Sphere& s = static_cast<const Sphere*>(arguments->geometryUserPtr)[arguments->primID];
+  RTCBounds& box = *arguments->bounds_o;
+  box.lower_x = outward(s.x, -s.radius);
+  box.lower_y = outward(s.y, -s.radius);
+  box.lower_z = outward(s.z, -s.radius);
+  box.upper_x = outward(s.x, +s.radius);
+  box.upper_y = outward(s.y, +s.radius);
+  box.upper_z = outward(s.z, +s.radius);
+}
+
+struct Query
+{
+  const Sphere* spheres;
+  unsigned id;
+  Overlaps* result;
+};
+
+/// How sphere `other` cuts the surface of `self`. With d from self to other, a surface point c + r
+/// n is inside when |r n - d|^2 < R^2, that is n . d > (|d|^2 + r^2 - R^2) / 2 r.
+void addOverlap(const Sphere& self, const Sphere& other, Overlaps& result)
+{
+  const Vec3d d = other.center().as<double>() - self.center().as<double>();
+  const double r = self.radius;
+  const double radius = other.radius;
+  const double distance = length(d);
+  // r - R and r + R are taken first: a difference of squares would cancel.
+  const double excess = (r - radius) * (r + radius);
+  if (distance == 0)
+  {
+    result.buried = result.buried || excess < 0;
+    return;
+  }
+  const double cosine = (distance * distance + excess) / (2 * r * distance);
+  if (cosine <= -1)
+  {
+    result.buried = true;
+  }
+  else if (cosine < 1)
+  {
+    result.caps.push_back({ (1 / distance) * d, cosine });
+  }
+}
+
+bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
+{
+  const auto* query = static_cast<const Query*>(arguments->userPtr);
+  if (arguments->primID != query->id)
+  {
+    addOverlap(query->spheres[query->id], query->spheres[arguments->primID], *query->result);
+  }
+  return false; // the radius of the query did not change
+}
+}
+
+OverlapFinder::OverlapFinder(const std::vector<Sphere>& spheres)
+  : spheres_(&spheres)
+  , device_(makeDevice())
+  , scene_(rtcNewScene(device_.get()))
+{
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
+  rtcSetGeometryUserData(geometry, const_cast<Sphere*>(spheres.data()));
+  rtcSetGeometryBoundsFunction(
+    geometry, [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_.get(), geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene_.get());
+  throwOnError(device_.get(), "building the search structure for overlaps");
+}
+
+void OverlapFinder::find(unsigned id, Overlaps& result) const
+{
+  result.buried = false;
+  result.caps.clear();
+  const Sphere& self = (*spheres_)[id];
+  Query query{ spheres_->data(), id, &result };
+  RTCPointQuery point;
+  point.x = self.x;
+  point.y = self.y;
+  point.z = self.z;
+  point.time = 0;
+  point.radius = self.radius * (1 + 4 * std::numeric_limits<float>::epsilon());
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene_.get(), &point, &context, visitNeighbour, &query);
+}
+}

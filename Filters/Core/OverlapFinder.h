@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_OverlapFinder_h
+#define po_OverlapFinder_h
+
+#include "Embree.h"
+#include "Sphere.h"
+
+#include <vector>
+
+namespace po
+{
+/// The part of a sphere's surface that lies inside one neighbour: directions n with n . axis >
+/// cosine.
+struct BuriedCap
+{
+  Vec3d axis;    ///< unit vector from the sphere's centre towards the neighbour's
+  double cosine; ///< cosine of the cap's half angle, in (-1, 1)
+};
+
+/// What lies of one sphere's surface inside the others.
+struct Overlaps
+{
+  bool buried = false;         ///< the whole surface lies inside one other sphere
+  std::vector<BuriedCap> caps; ///< one for each sphere that cuts the surface
+};
+
+/// Finds the spheres that overlap a sphere, exactly and for any mix of radii.
+///
+/// Embree's point query looks the neighbours up in a hierarchy of boxes; it does not see sphere
+/// points (Embree 3 and 4), so the boxes are a user geometry. The spheres must outlive the finder.
+class OverlapFinder
+{
+public:
+  explicit OverlapFinder(const std::vector<Sphere>& spheres);
+
+  /// The overlaps of sphere `id`. `result` is passed in to keep its memory.
+  /// A sphere that coincides with this one (same centre and radius) buries nothing: both surfaces
+  /// are seen.
+  void find(unsigned id, Overlaps& result) const;
+
+private:
+  const std::vector<Sphere>* spheres_;
+  DeviceHandle device_;
+  SceneHandle scene_;
+};
+}
+
+#endif

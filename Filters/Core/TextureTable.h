@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_TextureTable_h
+#define po_TextureTable_h
+
+#include "BakeSettings.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace po
+{
+/// Tells rows of equal bytes apart from new ones; rows are numbered in the order they first appear.
+class RowIndex
+{
+public:
+  explicit RowIndex(std::size_t bytesPerRow)
+    : bytesPerRow_(bytesPerRow)
+  {
+  }
+
+  /// The number of an equal row among the `count` rows that start at `rows`, or `count` if there is
+  /// none: then the caller appends it.
+  std::int32_t findOrAdd(const char* row, const char* rows, std::int32_t count);
+
+private:
+  std::size_t bytesPerRow_;
+  std::unordered_multimap<std::size_t, std::int32_t> rowsByHash_;
+};
+
+/// The distinct linear textures of a bake, one row of T * T values each.
+class TextureTable
+{
+public:
+  /// `expected` textures are reserved; pages of memory that stay unused cost nothing.
+  TextureTable(int resolution, std::size_t expected);
+
+  /// The row that holds a texture, added if no equal one is there.
+  std::int32_t insert(const float* texture);
+
+  [[nodiscard]] int resolution() const { return resolution_; }
+  [[nodiscard]] std::size_t texelsPerRow() const { return texels_; }
+  [[nodiscard]] std::int32_t rows() const { return rows_; }
+  [[nodiscard]] const std::vector<float>& values() const { return values_; }
+  [[nodiscard]] std::vector<float> takeValues() { return std::move(values_); }
+
+private:
+  int resolution_;
+  std::size_t texels_;
+  std::int32_t rows_ = 0;
+  std::vector<float> values_;
+  RowIndex index_;
+};
+
+/// A table in the form it is stored in: exactly one of the vectors is filled.
+struct EncodedTable
+{
+  Encoding encoding = Encoding::UInt8Gamma2;
+  int resolution = 0;
+  std::int32_t rows = 0;
+  double maximum = 0; ///< largest value of the table, the scale of UInt8Gamma2
+  std::vector<std::uint8_t> bytes;
+  std::vector<float> floats;
+};
+
+/// round(255 sqrt(value / maximum)), 0 where the maximum is 0.
+[[nodiscard]] std::uint8_t encodeGamma2(double value, double maximum);
+
+/// maximum (byte / 255)^2: the inverse of encodeGamma2 to half a step.
+[[nodiscard]] double decodeGamma2(std::uint8_t byte, double maximum);
+
+/// Encodes a table and gives up its values. Textures that become equal by rounding are merged.
+///
+/// @param rowOf the row of each particle, changed to the rows of the encoded table; negative
+/// entries
+///   (no texture) stay
+[[nodiscard]] EncodedTable encode(
+  TextureTable&& table, Encoding encoding, std::vector<std::int32_t>& rowOf);
+}
+
+#endif

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BruteForceVisibility.h"
+#include "OcclusionBaker.h"
+#include "ReferenceEstimator.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <thread>
+
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+po::SphereCloud cloudOf(const std::vector<po::Sphere>& spheres)
+{
+  return po::makeSphereCloud(
+    spheres.size(), [&](std::size_t i) { return spheres[i].center().as<double>(); },
+    [&](std::size_t i) { return static_cast<double>(spheres[i].radius); });
+}
+
+po::BakeSettings floatSettings(int resolution, int samples)
+{
+  po::BakeSettings settings;
+  settings.textureResolution = resolution;
+  settings.samplesPerTexel = samples;
+  settings.encoding = po::Encoding::Float32Linear;
+  return settings;
+}
+
+po::BakeResult bake(const std::vector<po::Sphere>& spheres, const po::BakeSettings& settings)
+{
+  po::Progress progress;
+  return po::bakeOcclusion(cloudOf(spheres), settings, po::ReferenceEstimator(), progress);
+}
+
+double texelValue(const po::BakeResult& result, std::size_t particle, std::size_t texel)
+{
+  const int resolution = result.table.resolution;
+  const auto row = static_cast<std::size_t>(result.rowOf[particle]);
+  return result.table.floats[row * static_cast<std::size_t>(resolution * resolution) + texel];
+}
+
+/// Spheres on a sphere of radius `distance` about the origin, overlapping so that no gap is left.
+void addClosedShell(std::vector<po::Sphere>& spheres, double distance, double radius, int count)
+{
+  const double golden = Pi * (3 - std::sqrt(5.0));
+  for (int i = 0; i < count; ++i)
+  {
+    const double z = 1 - (2 * i + 1.0) / count;
+    const double r = std::sqrt(1 - z * z);
+    const po::Vec3d p =
+      distance * po::Vec3d{ r * std::cos(golden * i), r * std::sin(golden * i), z };
+    spheres.push_back({ static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
+      static_cast<float>(radius) });
+  }
+}
+
+/// A cloud with overlaps, contacts and unequal radii.
+std::vector<po::Sphere> mixedScene()
+{
+  po::Random random(4, 0, 0);
+  std::vector<po::Sphere> spheres;
+  for (int i = 0; i < 60; ++i)
+  {
+    const auto coordinate = [&] { return static_cast<float>(6 * random.uniform()); };
+    spheres.push_back({ coordinate(), coordinate(), coordinate(),
+      static_cast<float>(0.3 + 0.9 * random.uniform()) });
+  }
+  return spheres;
+}
+
+TEST(OcclusionBaker, ALoneSphereIsExactlyOpen)
+{
+  for (const int resolution : { 1, 2, 3, 16, 64 })
+  {
+    const po::BakeResult result = bake({ { 7, -3, 1e5f, 0.01f } }, floatSettings(resolution, 49));
+    ASSERT_EQ(result.table.rows, 1);
+    for (const float value : result.table.floats)
+    {
+      EXPECT_EQ(value, 1.0f);
+    }
+    EXPECT_EQ(result.mean[0], 1.0f);
+  }
+}
+
+TEST(OcclusionBaker, ADistantSphereTakesItsShareOfTheSky)
+{
+  // Oracle: a sphere of radius R at distance d, wholly above the horizon at angle theta from the
+  // normal, takes cos(theta) (R/d)^2 of the cosine-weighted sky; averaged over the texel. Texels
+  // that it is wholly below are exactly open. 4 binomial standard errors, which stratification can
+  // only lower.
+  constexpr int resolution = 16;
+  constexpr int samples = 1024;
+  const std::vector<po::Sphere> spheres{ { 0, 0, 0, 1 }, { 2, 1, 2, 1.25f } };
+  const po::BakeResult result = bake(spheres, floatSettings(resolution, samples));
+  const po::Vec3d other = spheres[1].center().as<double>();
+  const double radius = spheres[1].radius;
+  int above = 0;
+  int below = 0;
+  for (int row = 0; row < resolution; ++row)
+  {
+    for (int column = 0; column < resolution; ++column)
+    {
+      constexpr int side = 24;
+      double occluded = 0;
+      double lowest = HUGE_VAL;
+      double highest = -HUGE_VAL;
+      for (int k = 0; k < side * side; ++k)
+      {
+        const po::Vec3d n =
+          po::texelPoint(resolution, row, column, (k % side + 0.5) / side, (k / side + 0.5) / side);
+        const po::Vec3d d = other - n;
+        const double height = po::dot(n, d); // of the centre above the horizon plane
+        occluded += height / po::length(d) * radius * radius / po::dot(d, d) / (side * side);
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+      }
+      const double value = texelValue(result, 0, po::texelIndex(resolution, row, column));
+      if (lowest > radius + 0.05)
+      {
+        const double error = std::sqrt(occluded * (1 - occluded) / samples);
+        EXPECT_NEAR(value, 1 - occluded, 4 * error) << row << " " << column;
+        ++above;
+      }
+      else if (highest < -radius - 0.05)
+      {
+        EXPECT_EQ(value, 1.0) << row << " " << column;
+        ++below;
+      }
+    }
+  }
+  EXPECT_GE(above, 20);
+  EXPECT_GT(below, 60);
+}
+
+TEST(OcclusionBaker, ASphereOnAHugeSphereSeesHalfTheSky)
+{
+  // Over a plane the visible share is (1 + n.up) / 2, its mean 1/2. The ball is 100,000 radii
+  // large, so its horizon dips by at most sqrt(4 / 100,000) below that of a plane.
+  constexpr int resolution = 16;
+  constexpr int samples = 400;
+  const std::vector<po::Sphere> spheres{ { 0, 0, 0, 1 }, { 0, 0, -100001, 100000 } };
+  const po::BakeResult result = bake(spheres, floatSettings(resolution, samples));
+  EXPECT_NEAR(result.mean[0], 0.5, 0.004);
+  for (int row = 0; row < resolution; ++row)
+  {
+    const double top = std::cos(Pi * row / resolution);
+    const double bottom = std::cos(Pi * (row + 1) / resolution);
+    const double plane = (1 + (top + bottom) / 2) / 2;
+    double mean = 0;
+    for (int column = 0; column < resolution; ++column)
+    {
+      mean += texelValue(result, 0, po::texelIndex(resolution, row, column)) / resolution;
+    }
+    const double error = 0.5 / std::sqrt(samples * resolution);
+    EXPECT_GT(mean, plane - 4 * error) << row;
+    EXPECT_LT(mean, plane + 4 * error + std::sqrt(4.0 / 100000) / 2) << row;
+  }
+}
+
+TEST(OcclusionBaker, AClosedShellIsDarkInside)
+{
+  std::vector<po::Sphere> spheres{ { 0, 0, 0, 1 } };
+  addClosedShell(spheres, 8, 2, 400);
+  const po::BakeResult result = bake(spheres, floatSettings(8, 49));
+  EXPECT_EQ(result.mean[0], 0.0f);
+  for (std::size_t texel = 0; texel < 64; ++texel)
+  {
+    EXPECT_EQ(texelValue(result, 0, texel), 0);
+  }
+  EXPECT_GE(result.counters.particlesDark, 1u);
+  EXPECT_GT(result.mean[1], 0.0f); // the shell itself is lit from outside
+}
+
+TEST(OcclusionBaker, RaysEndAtTheMaximumDistance)
+{
+  const std::vector<po::Sphere> spheres{ { 0, 0, 0, 1 }, { 0, 0, 5, 1 } };
+  po::BakeSettings settings = floatSettings(8, 64);
+  settings.maximumDistance = 2.9; // the nearest points are 3 apart
+  EXPECT_EQ(bake(spheres, settings).mean[0], 1.0f);
+  settings.maximumDistance = 3.5;
+  const po::BakeResult near = bake(spheres, settings);
+  EXPECT_LT(near.mean[0], 1.0f);
+  settings.maximumDistance = 0;
+  EXPECT_LT(bake(spheres, settings).mean[0], near.mean[0]);
+
+  // Against the independent judge: difference of two estimates, 5 standard errors.
+  const po::BakeResult result = [&]
+  {
+    settings.maximumDistance = 3.5;
+    settings.samplesPerTexel = 4096;
+    return bake(spheres, settings);
+  }();
+  for (int column = 0; column < 8; ++column)
+  {
+    const double expected = bruteforce::texel(spheres, 0, 8, 0, column, 16, 64, 3.5).value;
+    const double error = std::sqrt(std::max(expected * (1 - expected), 1e-4) / 4096);
+    EXPECT_NEAR(texelValue(result, 0, po::texelIndex(8, 0, column)), expected, 5 * error);
+  }
+}
+
+TEST(OcclusionBaker, AGradientIsIntegratedAgainstTheCosine)
+{
+  // (1/pi) integral of (b + (t - b)(1 + w.up)/2) cos = b + (t - b)(1/2 + n.up/3).
+  constexpr int resolution = 8;
+  constexpr int samples = 2500;
+  po::BakeSettings settings = floatSettings(resolution, samples);
+  settings.background = po::GradientBackground{ { 0, 0, 1 }, 0.2, 1.4 };
+  const po::BakeResult result = bake({ { 1, 2, 3, 4 } }, settings);
+  const double error =
+    1.2 / 2 * 0.5 / std::sqrt(samples); // standard deviation below 1/4 of the span
+  for (int row = 0; row < resolution; ++row)
+  {
+    const double height =
+      (std::cos(Pi * row / resolution) + std::cos(Pi * (row + 1) / resolution)) / 2;
+    for (int column = 0; column < resolution; ++column)
+    {
+      EXPECT_NEAR(texelValue(result, 0, po::texelIndex(resolution, row, column)),
+        0.2 + 1.2 * (0.5 + height / 3), 4 * error);
+    }
+  }
+  EXPECT_NEAR(result.mean[0], 0.8, 4 * error / resolution);
+}
+
+TEST(OcclusionBaker, MatchesAnIndependentJudgeWhereSpheresOverlap)
+{
+  // Per texel |z| < 5 and the mean square of z near 1 or below; both estimates are stratified,
+  // their variances bounded by the binomial ones. Texels mostly inside are left to the dilation
+  // test.
+  const std::vector<po::Sphere> spheres = mixedScene();
+  constexpr int resolution = 6;
+  constexpr int samples = 1600;
+  po::BakeSettings settings = floatSettings(resolution, samples);
+  const po::BakeResult result = bake(spheres, settings);
+  double bias = 0;
+  int texels = 0;
+  for (std::size_t id = 0; id < spheres.size(); id += 6)
+  {
+    for (int row = 0; row < resolution; ++row)
+    {
+      for (int column = 0; column < resolution; ++column)
+      {
+        const bruteforce::Texel judge =
+          bruteforce::texel(spheres, id, resolution, row, column, 16, 64);
+        if (judge.outsideShare < 0.3)
+        {
+          continue;
+        }
+        const double rays = samples * judge.outsideShare;
+        const double variance = std::max(judge.value * (1 - judge.value), 0.002);
+        // The judge's fixed 16 x 16 points see the rim of an overlap coarsely: half a percent.
+        const double error = std::sqrt(variance * (1 / rays + 1 / (16384 * judge.outsideShare)));
+        const double value = texelValue(result, id, po::texelIndex(resolution, row, column));
+        EXPECT_NEAR(value, judge.value, 5 * error + 0.005) << id << " " << row << " " << column;
+        bias += value - judge.value;
+        ++texels;
+      }
+    }
+  }
+  ASSERT_GT(texels, 100);
+  EXPECT_LT(std::abs(bias / texels), 0.002);
+}
+
+TEST(OcclusionBaker, SamplesInsideOtherSpheresGetNoRayAndNoWeight)
+{
+  // Two unit spheres one radius apart: each loses the cap beyond x = 1/2, a quarter of its area.
+  const std::vector<po::Sphere> spheres{ { 0, 0, 0, 1 }, { 1, 0, 0, 1 } };
+  po::BakeSettings settings = floatSettings(32, 49);
+  settings.dilateInside = false;
+  const po::BakeResult result = bake(spheres, settings);
+  const auto samples = 2.0 * 32 * 32 * 49;
+  EXPECT_EQ(static_cast<double>(result.counters.rays + result.counters.samplesInside) +
+      49.0 * static_cast<double>(result.counters.texelsInside),
+    samples);
+  EXPECT_GT(result.counters.texelsInside, 100u);
+
+  double outside = 0;
+  for (int row = 0; row < 32; ++row)
+  {
+    for (int column = 0; column < 32; ++column)
+    {
+      const double value = texelValue(result, 0, po::texelIndex(32, row, column));
+      outside += value > 0 ? po::texelArea(32, row) : 0;
+    }
+  }
+  EXPECT_NEAR(outside / (4 * Pi), 0.75, 0.03);
+  // Next to the rim the neighbour fills about a third of the view; nothing there may be black.
+  settings.dilateInside = true;
+  const po::BakeResult dilated = bake(spheres, settings);
+  EXPECT_GT(*std::min_element(dilated.table.floats.begin(), dilated.table.floats.end()), 0.4f);
+  EXPECT_EQ(dilated.mean[0], result.mean[0]);
+}
+
+TEST(OcclusionBaker, CoincidentTouchingAndNestedSpheresHaveNoFalseHits)
+{
+  // Three spheres at one place: each sees the whole sky, whatever rounding does.
+  const std::vector<po::Sphere> coincident(3, po::Sphere{ 100, 200, 300, 0.5f });
+  for (const float mean : bake(coincident, floatSettings(16, 49)).mean)
+  {
+    EXPECT_EQ(mean, 1.0f);
+  }
+  // Nested and touching from within: the inner sphere is buried, the outer one untouched.
+  const po::BakeResult nested =
+    bake({ { 0, 0, 0, 1 }, { 0.5f, 0, 0, 0.5f } }, floatSettings(16, 49));
+  EXPECT_EQ(nested.mean[0], 1.0f);
+  EXPECT_EQ(nested.mean[1], 0.0f);
+  EXPECT_EQ(nested.counters.particlesBuried, 1u);
+}
+
+TEST(OcclusionBaker, GivesTheSameBitsForAnyNumberOfThreads)
+{
+  std::vector<po::Sphere> spheres = mixedScene();
+  addClosedShell(spheres, 20, 1, 200); // more particles than one hand-over takes
+  const po::BakeSettings settings;     // the defaults: bytes, dilation, 49 samples
+  std::vector<po::BakeResult> results;
+  for (const std::size_t threads : { 1, 2, 7 })
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    results.push_back(bake(spheres, settings));
+  }
+  for (const po::BakeResult& result : results)
+  {
+    EXPECT_EQ(result.table.bytes, results[0].table.bytes);
+    EXPECT_EQ(result.rowOf, results[0].rowOf);
+    EXPECT_EQ(result.mean, results[0].mean);
+    EXPECT_EQ(result.counters.rays, results[0].counters.rays);
+  }
+  EXPECT_EQ(results[0].counters.threads, 1u);
+  if (std::thread::hardware_concurrency() > 1)
+  {
+    EXPECT_GT(results[1].counters.threads, 1u);
+  }
+}
+
+TEST(OcclusionBaker, TheSeedChangesTheNoiseAndNothingElse)
+{
+  const std::vector<po::Sphere> spheres = mixedScene();
+  po::BakeSettings settings = floatSettings(4, 400);
+  const po::BakeResult first = bake(spheres, settings);
+  settings.seed = 2;
+  const po::BakeResult second = bake(spheres, settings);
+  EXPECT_NE(first.table.floats, second.table.floats);
+  double difference = 0;
+  for (std::size_t i = 0; i < spheres.size(); ++i)
+  {
+    difference += first.mean[i] - second.mean[i];
+  }
+  // 60 particles of about 5,000 rays: the standard error of the mean difference is below 0.002.
+  EXPECT_NEAR(difference / static_cast<double>(spheres.size()), 0, 0.006);
+}
+
+TEST(OcclusionBaker, RefinesAsRaysAreAdded)
+{
+  // The error must fall at least as fast as N^-1/2: from 16 to 256 rays by 4, here at least by 3.
+  const std::vector<po::Sphere> spheres = mixedScene();
+  const po::BakeResult judge = bake(spheres, floatSettings(4, 20000));
+  const auto rms = [&](int samples)
+  {
+    const po::BakeResult result = bake(spheres, floatSettings(4, samples));
+    double sum = 0;
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+    {
+      for (std::size_t texel = 0; texel < 16; ++texel)
+      {
+        sum += std::pow(texelValue(result, i, texel) - texelValue(judge, i, texel), 2);
+      }
+    }
+    return std::sqrt(sum / (16.0 * static_cast<double>(spheres.size())));
+  };
+  EXPECT_GT(rms(16) / rms(256), 3);
+}
+
+TEST(OcclusionBaker, AbortsWithinASecondAndReportsProgressOnTheCallingThread)
+{
+  // Far more work than a second's: 200 particles, 64 x 64 texels, 10,000 rays each.
+  std::vector<po::Sphere> spheres;
+  addClosedShell(spheres, 20, 1, 200);
+  const auto caller = std::this_thread::get_id();
+  const auto start = std::chrono::steady_clock::now();
+  double last = -1;
+  po::Progress progress(
+    [&](double share)
+    {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      EXPECT_GE(share, last);
+      last = share;
+      return std::chrono::steady_clock::now() - start < std::chrono::milliseconds(300);
+    });
+  const po::BakeResult result = po::bakeOcclusion(
+    cloudOf(spheres), floatSettings(64, 10000), po::ReferenceEstimator(), progress);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_TRUE(result.aborted);
+  EXPECT_GE(last, 0);
+  EXPECT_LT(seconds.count(), 1.3);
+}
+
+TEST(OcclusionBaker, AnEmptyCloudGivesAnEmptyTable)
+{
+  const po::BakeResult result = bake({}, po::BakeSettings{});
+  EXPECT_EQ(result.table.rows, 0);
+  EXPECT_TRUE(result.rowOf.empty());
+}
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OverlapFinder.h"
+#include "Random.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+po::Overlaps overlapsOf(const std::vector<po::Sphere>& spheres, unsigned id)
+{
+  po::Overlaps result;
+  po::OverlapFinder(spheres).find(id, result);
+  return result;
+}
+
+TEST(OverlapFinder, EqualSpheresCutEachOtherAtTheMiddlePlane)
+{
+  const po::Overlaps overlaps = overlapsOf({ { 0, 0, 0, 1 }, { 1, 0, 0, 1 } }, 0);
+  ASSERT_EQ(overlaps.caps.size(), 1u);
+  EXPECT_FALSE(overlaps.buried);
+  EXPECT_DOUBLE_EQ(overlaps.caps[0].cosine, 0.5); // x = 1/2 on a unit sphere
+  EXPECT_DOUBLE_EQ(overlaps.caps[0].axis.x, 1);
+}
+
+TEST(OverlapFinder, TouchingDistantAndContainedSpheresCutNothing)
+{
+  const std::vector<po::Sphere> spheres{ { 0, 0, 0, 1 }, { 2, 0, 0, 1 }, { -3, 0, 0, 1 },
+    { 0, 0.25f, 0, 0.5f } };
+  const po::Overlaps overlaps = overlapsOf(spheres, 0);
+  EXPECT_TRUE(overlaps.caps.empty());
+  EXPECT_FALSE(overlaps.buried);
+}
+
+TEST(OverlapFinder, ASphereInsideAnotherIsBuried)
+{
+  EXPECT_TRUE(overlapsOf({ { 0, 0, 0, 0.5f }, { 0.25f, 0, 0, 1 } }, 0).buried);
+  EXPECT_TRUE(overlapsOf({ { 0, 0, 0, 0.5f }, { 0, 0, 0, 1 } }, 0).buried);  // concentric
+  EXPECT_FALSE(overlapsOf({ { 0, 0, 0, 0.5f }, { 0, 0, 0, 1 } }, 1).buried); // the outer one
+}
+
+TEST(OverlapFinder, CoincidentSpheresBuryNothing)
+{
+  const std::vector<po::Sphere> spheres(5, po::Sphere{ 3, 4, 5, 1 });
+  const po::Overlaps overlaps = overlapsOf(spheres, 2);
+  EXPECT_FALSE(overlaps.buried);
+  EXPECT_TRUE(overlaps.caps.empty());
+}
+
+TEST(OverlapFinder, FindsWhatBruteForceFindsForRadiiOfOneToTenThousand)
+{
+  po::Random random(9, 0, 0);
+  std::vector<po::Sphere> spheres;
+  for (int i = 0; i < 600; ++i)
+  {
+    const auto coordinate = [&] { return static_cast<float>(20 * random.uniform()); };
+    const double radius = std::pow(10.0, -3 + 4 * random.uniform());
+    spheres.push_back({ coordinate(), coordinate(), coordinate(), static_cast<float>(radius) });
+  }
+  const po::OverlapFinder finder(spheres);
+  po::Overlaps overlaps;
+  std::size_t cuts = 0;
+  for (unsigned i = 0; i < spheres.size(); ++i)
+  {
+    finder.find(i, overlaps);
+    std::size_t expectedCaps = 0;
+    bool expectedBuried = false;
+    for (unsigned j = 0; j < spheres.size(); ++j)
+    {
+      const double d =
+        po::length(spheres[j].center().as<double>() - spheres[i].center().as<double>());
+      const double r = spheres[i].radius;
+      const double other = spheres[j].radius;
+      expectedBuried = expectedBuried || (i != j && d <= other - r);
+      expectedCaps += i != j && d < r + other && d > std::abs(r - other) ? 1 : 0;
+    }
+    EXPECT_EQ(overlaps.caps.size(), expectedCaps) << i;
+    EXPECT_EQ(overlaps.buried, expectedBuried) << i;
+    cuts += expectedCaps;
+  }
+  EXPECT_GT(cuts, 1000u); // the scene does test something
+}
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Random.h"
+#include "TexelMap.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+constexpr double Pi = 3.14159265358979323846;
+
+TEST(TexelMap, AreasAddUpToTheSphere)
+{
+  for (int resolution = 1; resolution <= 64; ++resolution)
+  {
+    double sum = 0;
+    for (int row = 0; row < resolution; ++row)
+    {
+      sum += resolution * po::texelArea(resolution, row);
+    }
+    EXPECT_NEAR(sum, 4 * Pi, 1e-12) << resolution;
+  }
+}
+
+TEST(TexelMap, CoordinatesRoundTrip)
+{
+  po::Random random(1, 0, 0);
+  for (int i = 0; i < 10000; ++i)
+  {
+    const po::TextureCoordinate c{ random.uniform(), random.uniform() };
+    const po::TextureCoordinate back = po::textureCoordinate(po::textureDirection(c));
+    EXPECT_NEAR(back.u, c.u, 1e-12) << c.v;
+    EXPECT_NEAR(back.v, c.v, 1e-14);
+  }
+}
+
+TEST(TexelMap, AxesLieWhereTheConventionSays)
+{
+  EXPECT_EQ(po::textureCoordinate({ 0, 0, 2 }).v, 0);
+  EXPECT_EQ(po::textureCoordinate({ 0, 0, -2 }).v, 1);
+  EXPECT_EQ(po::textureCoordinate({ 1, 0, 0 }).u, 0);
+  EXPECT_NEAR(po::textureCoordinate({ 0, 1, 0 }).u, 0.25, 1e-15);
+  EXPECT_NEAR(po::textureCoordinate({ -1, 0, 0 }).u, 0.5, 1e-15);
+  EXPECT_NEAR(po::textureCoordinate({ 0, -1, 0 }).u, 0.75, 1e-15);
+  // Just short of the seam the azimuth must not become 1.
+  EXPECT_LT(po::textureCoordinate({ 1, -1e-30, 0 }).u, 1);
+  EXPECT_LT(po::textureCoordinate({ 1, -0.0, 0 }).u, 1);
+  // A micro-radian from the pole is resolved.
+  EXPECT_NEAR(po::textureCoordinate({ 1e-6, 0, 1 }).v, 1e-6 / Pi, 1e-18);
+}
+
+TEST(TexelMap, TexelPointsStayInTheirTexelAndAreUniform)
+{
+  constexpr int resolution = 7;
+  constexpr int side = 40;
+  for (int row = 0; row < resolution; ++row)
+  {
+    const double reach = po::texelAngularRadius(resolution, row);
+    for (const int column : { 0, 3, 6 })
+    {
+      const po::Vec3d center =
+        po::textureDirection({ (column + 0.5) / resolution, (row + 0.5) / resolution });
+      double meanHeight = 0;
+      for (int a = 0; a < side; ++a)
+      {
+        for (int b = 0; b < side; ++b)
+        {
+          const po::Vec3d p =
+            po::texelPoint(resolution, row, column, (a + 0.5) / side, (b + 0.5) / side);
+          const po::TextureCoordinate c = po::textureCoordinate(p);
+          EXPECT_EQ(static_cast<int>(c.u * resolution), column);
+          EXPECT_EQ(static_cast<int>(c.v * resolution), row);
+          EXPECT_LE(std::acos(std::min(1.0, po::dot(p, center))), reach);
+          meanHeight += p.z / (side * side);
+        }
+      }
+      // Area is uniform in z, so the mean height is that of the row's edges.
+      const double edges =
+        (std::cos(Pi * row / resolution) + std::cos(Pi * (row + 1) / resolution)) / 2;
+      EXPECT_NEAR(meanHeight, edges, 1e-12);
+    }
+  }
+}
+
+TEST(TexelMap, BilinearLookupIsExactAtCentresWrapsAndClamps)
+{
+  constexpr int resolution = 16;
+  const po::BilinearTexels center =
+    po::bilinearTexels(resolution, { 3.5 / resolution, 5.5 / resolution });
+  EXPECT_EQ(center.index[0], po::texelIndex(resolution, 5, 3));
+  EXPECT_FLOAT_EQ(center.weight[0], 1);
+
+  const po::BilinearTexels seam = po::bilinearTexels(resolution, { 0, 5.5 / resolution });
+  EXPECT_EQ(seam.index[0], po::texelIndex(resolution, 5, resolution - 1));
+  EXPECT_EQ(seam.index[1], po::texelIndex(resolution, 5, 0));
+  EXPECT_FLOAT_EQ(seam.weight[0], 0.5f);
+
+  const po::BilinearTexels pole = po::bilinearTexels(resolution, { 3.5 / resolution, 0 });
+  for (const std::size_t index : pole.index)
+  {
+    EXPECT_LT(index, static_cast<std::size_t>(resolution));
+  }
+}
+
+TEST(TexelMap, BilinearWeightsAddUpToOneForEveryResolution)
+{
+  po::Random random(2, 0, 0);
+  for (int resolution = 1; resolution <= 64; ++resolution)
+  {
+    for (int i = 0; i < 200; ++i)
+    {
+      // The closed range, both ends included.
+      const double u = i == 0 ? 0 : random.uniform();
+      const double v = i == 0 ? 0 : i == 1 ? 1 : random.uniform();
+      const po::BilinearTexels texels = po::bilinearTexels(resolution, { u, v });
+      float sum = 0;
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        sum += texels.weight[k];
+        EXPECT_GE(texels.weight[k], 0);
+        EXPECT_LT(texels.index[k], static_cast<std::size_t>(resolution * resolution));
+      }
+      EXPECT_NEAR(sum, 1, 1e-6);
+    }
+  }
+}
+}
