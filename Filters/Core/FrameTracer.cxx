@@ -54,22 +54,19 @@ Box boundsOf(const SphereScene& scene)
   return { low - grow, high + grow };
 }
 
-/// Clips [enter, leave] to one slab; a ray within a face's plane gives NaN, which clips nothing.
+/// Clips [enter, leave] to one slab.
 void clipSlab(
   double origin, double direction, double low, double high, double& enter, double& leave)
 {
-  double a = (low - origin) / direction;
-  double b = (high - origin) / direction;
-  if (direction < 0)
+  if (direction == 0)
   {
-    std::swap(a, b);
+    leave = origin < low || origin > high ? -Infinity : leave;
+    return;
   }
-  enter = a > enter ? a : enter;
-  leave = b < leave ? b : leave;
-  if (direction == 0 && (origin < low || origin > high))
-  {
-    leave = -Infinity;
-  }
+  const double a = (low - origin) / direction;
+  const double b = (high - origin) / direction;
+  enter = std::max(enter, std::min(a, b));
+  leave = std::min(leave, std::max(a, b));
 }
 
 PreparedRay prepare(const PrimaryRay& ray, const Box& box)
@@ -109,6 +106,12 @@ bool intersectExactly(const PrimaryRay& ray, const Sphere& sphere, std::uint32_t
   }
   hit = { s, id, (1 / radius) * (nearest - half * ray.direction) };
   return true;
+}
+
+/// Not a denormal number, which Embree may take for zero and hit the same sphere forever.
+float justBehind(float t)
+{
+  return std::max(std::nextafter(t, InfinityF), std::numeric_limits<float>::min());
 }
 
 RTCRayHit makeRay(const PrimaryRay& ray, double start, float tnear)
@@ -253,7 +256,7 @@ private:
       {
         return {};
       }
-      RTCRayHit query = makeRay(ray, start, std::nextafter(tfar, InfinityF));
+      RTCRayHit query = makeRay(ray, start, justBehind(tfar));
       if (!findNext(query, counters))
       {
         return {};
