@@ -133,8 +133,8 @@ RadiusFunction arrayRadii(vtkPointSet& points, const std::string& name, std::str
 
 RadiusFunction chooseRadii(vtkPointSet& points, const RadiusSettings& settings, std::string& error)
 {
-  const std::string name =
-    settings.array.empty() ? defaultRadiusArray(*points.GetPointData()) : settings.array;
+  const bool automatic = settings.array.empty() || settings.array == RadiusSettings::Automatic;
+  const std::string name = automatic ? defaultRadiusArray(*points.GetPointData()) : settings.array;
   return name.empty() || name == RadiusSettings::NoArray
     ? constantRadii(points, settings.constant, error)
     : arrayRadii(points, name, error);

@@ -22,6 +22,9 @@ struct RadiusSettings
   /// Value of `array` that asks for no array: all radii are `constant`.
   static constexpr const char* NoArray = "(none)";
 
+  /// Value of `array` that asks for defaultRadiusArray, like an empty one.
+  static constexpr const char* Automatic = "(automatic)";
+
   /// Point array of one component; empty: the choice of defaultRadiusArray. Of an array named
   /// "diameter" (in any case) half the value is the radius.
   std::string array;

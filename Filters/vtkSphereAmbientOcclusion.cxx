@@ -1,6 +1,404 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSphereAmbientOcclusion.h"
 
+#include "BakedData.h"
+#include "ErrorPilot.h"
+#include "ExrBackground.h"
+#include "ReferenceEstimator.h"
+
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <vtksys/SystemInformation.hxx>
+
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <sstream>
+#include <stdexcept>
 
 vtkStandardNewMacro(vtkSphereAmbientOcclusion);
+
+namespace
+{
+/// Version of the layout that AmbientOcclusionParameters describes.
+constexpr int ContractVersion = 1;
+
+constexpr const char* MethodNames[] = { "Automatic", "Sweep", "Embree", "Reference" };
+constexpr const char* BackgroundNames[] = { "Uniform", "Gradient", "Image" };
+constexpr const char* EncodingNames[] = { po::UInt8Gamma2, po::Float32Linear };
+
+/// A parameter that is out of its range: throws a message that says the range.
+template <typename T>
+void requireRange(const char* name, T value, T low, T high)
+{
+  if (!(value >= low && value <= high))
+  {
+    std::ostringstream message;
+    message << name << " must be between " << low << " and " << high << ", but is " << value << ".";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+void requireNotNegative(const char* name, double value, const char* zeroMeans = "")
+{
+  if (!(value >= 0) || !std::isfinite(value))
+  {
+    std::ostringstream message;
+    message << name << " must be a number of at least 0" << zeroMeans << ", but is " << value
+            << ".";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+std::string inGigabytes(double bytes)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << bytes / (1024.0 * 1024.0 * 1024.0) << " GiB";
+  return text.str();
+}
+
+/// Says beforehand what would otherwise end in swapping or in a killed process.
+void requireMemory(std::size_t particles, const po::BakeSettings& settings)
+{
+  vtksys::SystemInformation system;
+  const double needed = po::bakeMemory(particles, settings);
+  const double available = 1024.0 *
+    (static_cast<double>(system.GetHostMemoryAvailable(nullptr)) -
+      static_cast<double>(system.GetHostMemoryUsed()));
+  if (needed > available)
+  {
+    throw std::runtime_error("Baking " + std::to_string(particles) + " particles needs up to " +
+      inGigabytes(needed) + " of memory, but " + inGigabytes(std::max(available, 0.0)) +
+      " are free: lower TextureResolution, choose the Encoding UInt8Gamma2, or bake fewer "
+      "particles.");
+  }
+}
+}
+
+/// What the last execution did.
+struct vtkSphereAmbientOcclusion::Internals
+{
+  po::BakeCounters Counters;
+  std::size_t LeftOut = 0;
+  std::size_t TextureBytes = 0;
+  int SamplesUsed = 0;
+  double EstimatedError = 0;
+  double Seconds = 0;
+
+  /// Throws std::invalid_argument naming the parameter that is out of range.
+  static po::BakeSettings ReadSettings(vtkSphereAmbientOcclusion* self);
+  static po::Background ReadBackground(vtkSphereAmbientOcclusion* self);
+  static po::RadiusSettings ReadRadius(vtkSphereAmbientOcclusion* self);
+
+  po::OcclusionParameters Describe(vtkSphereAmbientOcclusion* self,
+    const po::BakeSettings& settings, const po::EncodedTable& table) const;
+
+  void Bake(vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks);
+};
+
+po::Background vtkSphereAmbientOcclusion::Internals::ReadBackground(vtkSphereAmbientOcclusion* self)
+{
+  requireRange<int>("Background", self->Background, Uniform, Image);
+  if (self->Background == Gradient)
+  {
+    const double* up = self->BackgroundUp;
+    const po::GradientBackground gradient{ { up[0], up[1], up[2] }, self->BackgroundBottom,
+      self->BackgroundTop };
+    if (!(po::length(gradient.up) > 0) || !std::isfinite(po::length(gradient.up)))
+    {
+      throw std::invalid_argument("BackgroundUp must be a direction, not the zero vector.");
+    }
+    requireNotNegative("BackgroundBottom", gradient.bottom);
+    requireNotNegative("BackgroundTop", gradient.top);
+    return gradient;
+  }
+  if (self->Background == Image)
+  {
+    if (!self->BackgroundImage || !self->BackgroundImage[0])
+    {
+      throw std::invalid_argument(
+        "BackgroundImage is empty: choose an OpenEXR file in latitude and "
+        "longitude, or another Background.");
+    }
+    po::LatLongImage image = po::ReadLatLongImage(self->BackgroundImage);
+    return po::ImageBackground{ image.Width, image.Height, std::move(image.Luminance) };
+  }
+  return po::UniformBackground{};
+}
+
+po::BakeSettings vtkSphereAmbientOcclusion::Internals::ReadSettings(vtkSphereAmbientOcclusion* self)
+{
+  requireRange(
+    "TextureResolution", self->TextureResolution, 1, po::BakeSettings::MaximumTextureResolution);
+  requireRange(
+    "SamplesPerTexel", self->SamplesPerTexel, 1, po::BakeSettings::MaximumSamplesPerTexel);
+  requireRange("TargetError", self->TargetError, 0.0, 1.0);
+  requireRange("InsideThreshold", self->InsideThreshold, 0.0, 1.0);
+  requireRange<int>("Encoding", self->Encoding, UInt8Gamma2, Float32Linear);
+  requireRange("Seed", self->Seed, 0, VTK_INT_MAX);
+  requireNotNegative("MaximumDistance", self->MaximumDistance, " (0 = unbounded)");
+  requireRange<int>("Method", self->Method, Automatic, Reference);
+  if (self->Method == Sweep || self->Method == Embree)
+  {
+    throw std::invalid_argument(std::string("Method ") + MethodNames[self->Method] +
+      " is not in this version: choose Automatic or Reference.");
+  }
+  po::BakeSettings settings;
+  settings.textureResolution = self->TextureResolution;
+  settings.samplesPerTexel = self->SamplesPerTexel;
+  settings.maximumDistance = self->MaximumDistance;
+  settings.dilateInside = self->DilateInside;
+  settings.insideThreshold = self->InsideThreshold;
+  settings.encoding = static_cast<po::Encoding>(self->Encoding);
+  settings.seed = static_cast<std::uint64_t>(self->Seed);
+  settings.background = ReadBackground(self);
+  return settings;
+}
+
+po::RadiusSettings vtkSphereAmbientOcclusion::Internals::ReadRadius(vtkSphereAmbientOcclusion* self)
+{
+  return { self->RadiusArray ? self->RadiusArray : "", self->RadiusScale, self->ConstantRadius };
+}
+
+po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
+  vtkSphereAmbientOcclusion* self, const po::BakeSettings& settings,
+  const po::EncodedTable& table) const
+{
+  po::OcclusionParameters parameters;
+  parameters.Set("version", ContractVersion);
+  parameters.Set("method", MethodNames[Reference]);
+  parameters.Set("resolution", settings.textureResolution);
+  parameters.Set("samplesPerTexel", settings.samplesPerTexel);
+  parameters.Set("seed", self->Seed);
+  parameters.Set("encoding", EncodingNames[self->Encoding]);
+  parameters.Set("gamma", settings.encoding == po::Encoding::UInt8Gamma2 ? 2.0 : 1.0);
+  parameters.Set("maximum", table.maximum);
+  parameters.Set("insideThreshold", settings.insideThreshold);
+  parameters.Set("dilateInside", settings.dilateInside);
+  parameters.Set("maximumDistance", settings.maximumDistance);
+  parameters.Set("radiusArray", self->RadiusArray ? self->RadiusArray : "");
+  parameters.Set("radiusScale", self->RadiusScale);
+  parameters.Set("constantRadius", self->ConstantRadius);
+  parameters.Set("background", BackgroundNames[self->Background]);
+  if (self->Background == Gradient)
+  {
+    std::ostringstream up;
+    up.imbue(std::locale::classic());
+    up.precision(17);
+    up << self->BackgroundUp[0] << ' ' << self->BackgroundUp[1] << ' ' << self->BackgroundUp[2];
+    parameters.Set("backgroundUp", up.str());
+    parameters.Set("backgroundBottom", self->BackgroundBottom);
+    parameters.Set("backgroundTop", self->BackgroundTop);
+  }
+  if (self->Background == Image)
+  {
+    parameters.Set("backgroundImage", self->BackgroundImage);
+  }
+  parameters.Set("targetError", self->TargetError);
+  parameters.Set("estimatedError", this->EstimatedError);
+  return parameters;
+}
+
+void vtkSphereAmbientOcclusion::Internals::Bake(
+  vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks)
+{
+  po::BakeSettings settings = ReadSettings(self);
+  std::string error;
+  const std::optional<po::SphereCloud> cloud = po::readBlocks(blocks, ReadRadius(self), error);
+  if (!cloud)
+  {
+    throw std::invalid_argument(error);
+  }
+  this->LeftOut = cloud->rejected.total();
+  if (this->LeftOut > 0)
+  {
+    vtkWarningWithObjectMacro(self, << po::describe(cloud->rejected));
+  }
+  requireMemory(cloud->spheres.size(), settings);
+
+  po::Progress progress(
+    [self](double share)
+    {
+      self->UpdateProgress(share);
+      return !self->CheckAbort();
+    });
+  const po::BakeScene scene(*cloud);
+  const po::ReferenceEstimator estimator;
+  if (self->TargetError > 0)
+  {
+    self->SetProgressText("Finding the samples that reach the target error");
+    const po::PilotResult pilot =
+      po::samplesForError(scene, settings, estimator, self->TargetError, progress);
+    settings.samplesPerTexel = pilot.samplesPerTexel;
+    this->EstimatedError = pilot.estimatedError;
+    if (!pilot.reached && !progress.aborted())
+    {
+      vtkWarningWithObjectMacro(self, << "TargetError " << self->TargetError
+                                      << " is out of reach: the largest number of samples leaves "
+                                      << pilot.estimatedError << ".");
+    }
+  }
+  this->SamplesUsed = settings.samplesPerTexel;
+  self->SetProgressText("Baking ambient occlusion");
+  const po::BakeResult result = po::bakeOcclusion(scene, settings, estimator, progress);
+  if (result.aborted)
+  {
+    return;
+  }
+  this->Counters = result.counters;
+  this->TextureBytes = result.table.bytes.size() + result.table.floats.size() * sizeof(float);
+  po::attachBake(blocks, *cloud, result, this->Describe(self, settings, result.table));
+}
+
+vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
+  : Impl(std::make_unique<Internals>())
+{
+}
+
+vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
+{
+  this->SetRadiusArray(nullptr);
+  this->SetBackgroundImage(nullptr);
+}
+
+int vtkSphereAmbientOcclusion::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+int vtkSphereAmbientOcclusion::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const auto start = std::chrono::steady_clock::now();
+  *this->Impl = Internals();
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkDataObject* output = vtkDataObject::GetData(outputVector);
+  output->ShallowCopy(input); // of a composite data set the leaves too
+
+  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
+  if (processes && processes->GetNumberOfProcesses() > 1 && processes->GetLocalProcessId() == 0)
+  {
+    vtkWarningMacro("Every process bakes its own particles as if there were no others: expect too "
+                    "bright values where processes meet.");
+  }
+
+  std::string error;
+  try
+  {
+    this->Impl->Bake(this, po::particleBlocks(output));
+  }
+  catch (const std::bad_alloc&)
+  {
+    error = "Memory ran out while baking: lower TextureResolution or bake fewer particles.";
+  }
+  catch (const std::exception& exception)
+  {
+    error = exception.what();
+  }
+  if (!error.empty())
+  {
+    output->Initialize();
+    vtkErrorMacro(<< error);
+    return 0;
+  }
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  this->Impl->Seconds = elapsed.count();
+  return 1;
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticles()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.particles);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexels()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.texels);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfRays()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.rays);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfSamplesInside()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.samplesInside);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexelsInside()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.texelsInside);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesBuried()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.particlesBuried);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesDark()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.particlesDark);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesLeftOut()
+{
+  return static_cast<vtkIdType>(this->Impl->LeftOut);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextures()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.texturesStored);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextureBytes()
+{
+  return static_cast<vtkIdType>(this->Impl->TextureBytes);
+}
+
+int vtkSphereAmbientOcclusion::GetNumberOfThreads()
+{
+  return static_cast<int>(this->Impl->Counters.threads);
+}
+
+int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
+{
+  return this->Impl->SamplesUsed;
+}
+
+double vtkSphereAmbientOcclusion::GetEstimatedError()
+{
+  return this->Impl->EstimatedError;
+}
+
+double vtkSphereAmbientOcclusion::GetBakeSeconds()
+{
+  return this->Impl->Seconds;
+}
+
+void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "RadiusArray: " << (this->RadiusArray ? this->RadiusArray : "(automatic)") << "\n"
+     << indent << "RadiusScale: " << this->RadiusScale << "\n"
+     << indent << "ConstantRadius: " << this->ConstantRadius << "\n"
+     << indent << "TextureResolution: " << this->TextureResolution << "\n"
+     << indent << "SamplesPerTexel: " << this->SamplesPerTexel << "\n"
+     << indent << "TargetError: " << this->TargetError << "\n"
+     << indent << "Method: " << this->Method << "\n"
+     << indent << "MaximumDistance: " << this->MaximumDistance << "\n"
+     << indent << "Background: " << this->Background << "\n"
+     << indent << "DilateInside: " << this->DilateInside << "\n"
+     << indent << "InsideThreshold: " << this->InsideThreshold << "\n"
+     << indent << "Encoding: " << this->Encoding << "\n"
+     << indent << "Seed: " << this->Seed << "\n";
+}

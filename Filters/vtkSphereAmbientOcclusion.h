@@ -3,21 +3,235 @@
 #define vtkSphereAmbientOcclusion_h
 
 #include "ParticleOcclusionFiltersModule.h"
-#include "vtkPolyDataAlgorithm.h"
+#include "vtkPassInputTypeAlgorithm.h"
 
-class PARTICLEOCCLUSIONFILTERS_EXPORT vtkSphereAmbientOcclusion : public vtkPolyDataAlgorithm
+#include <memory>
+
+/**
+ * @class vtkSphereAmbientOcclusion
+ * @brief Bakes ambient occlusion onto every particle.
+ *
+ * Every point of the input is a sphere. For each the filter finds how much of the background its
+ * surface sees past all other spheres, as a texture of T x T values in latitude and longitude, in
+ * parallel with Embree. The input is a vtkPolyData, or a composite data set of them whose blocks
+ * occlude each other.
+ *
+ * The output is a shallow copy of the input plus
+ * - point data `AmbientOcclusion`, float32[N]: mean visibility of the particle over the area that
+ * is outside other particles, linear, 0 (exactly: no light arrives) to 1 (open; more under a
+ * brighter background);
+ * - point data `AmbientOcclusionTexture`, int32[N]: row of the particle's texture in the table;
+ * - field data `AmbientOcclusionTextures`: one tuple a distinct texture, T*T components, uint8 or
+ *   float32;
+ * - field data `AmbientOcclusionParameters`: strings "key=value", all that is needed to decode the
+ *   table and to bake it again.
+ *
+ * A texel is the mean of (1/pi) * integral of V(x, w) L(w) max(0, n.w) dw over the part of its area
+ * that is outside all other spheres: V is visibility, L the luminance of the background. Component
+ * j*T + i covers polar angles [j pi/T, (j+1) pi/T] from +z and azimuths [2 pi i/T, 2 pi (i+1)/T]
+ * from +x towards +y.
+ *
+ * Particles whose position or radius is NaN, infinite, zero or negative are left out with one
+ * warning that counts them: row -1, visibility 0. If a parameter or array is wrong the filter
+ * reports one error that names it and gives no output. When aborted, it passes the input on
+ * unbaked.
+ *
+ * Under MPI every process bakes its own particles as if there were no others.
+ */
+class PARTICLEOCCLUSIONFILTERS_EXPORT vtkSphereAmbientOcclusion : public vtkPassInputTypeAlgorithm
 {
 public:
   static vtkSphereAmbientOcclusion* New();
-  vtkTypeMacro(vtkSphereAmbientOcclusion, vtkPolyDataAlgorithm);
+  vtkTypeMacro(vtkSphereAmbientOcclusion, vtkPassInputTypeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Point array of radii, one component. Empty (default) or "(automatic)": the first of radius,
+   * Radius, rad, r, diameter that exists, else ConstantRadius. "(none)": ConstantRadius. Of an
+   * array named diameter half the value is the radius.
+   */
+  vtkSetStringMacro(RadiusArray);
+  vtkGetStringMacro(RadiusArray);
+  ///@}
+
+  ///@{
+  /// Factor on every radius, positive [1].
+  vtkSetMacro(RadiusScale, double);
+  vtkGetMacro(RadiusScale, double);
+  ///@}
+
+  ///@{
+  /// Radius where no array is used, in the units of the points; 0 [default]: half the median
+  /// distance to the nearest neighbour.
+  vtkSetMacro(ConstantRadius, double);
+  vtkGetMacro(ConstantRadius, double);
+  ///@}
+
+  ///@{
+  /// Texels along each side of a texture, 1 to 64 [16]. Time and memory grow with its square.
+  vtkSetMacro(TextureResolution, int);
+  vtkGetMacro(TextureResolution, int);
+  ///@}
+
+  ///@{
+  /// Quality: the noise that this many jittered rays a texel leave, 1 to 1,048,576 [49].
+  vtkSetMacro(SamplesPerTexel, int);
+  vtkGetMacro(SamplesPerTexel, int);
+  ///@}
+
+  ///@{
+  /**
+   * RMS error of linear visibility to reach, area-weighted over the set; 0 [default] = off. When
+   * set, it takes the place of SamplesPerTexel: a pilot bake of a part of the particles finds how
+   * many rays reach it. Below 1.
+   */
+  vtkSetMacro(TargetError, double);
+  vtkGetMacro(TargetError, double);
+  ///@}
+
+  enum MethodType
+  {
+    Automatic = 0, ///< the best method that this version has for the input
+    Sweep = 1,     ///< not in this version
+    Embree = 2,    ///< not in this version
+    Reference = 3  ///< jittered rays from every texel, one occlusion ray a sample
+  };
+
+  ///@{
+  /// How visibility is found [Automatic, which is Reference in this version].
+  vtkSetMacro(Method, int);
+  vtkGetMacro(Method, int);
+  ///@}
+
+  ///@{
+  /// Rays end at this distance, in the units of the points: what is farther does not occlude.
+  /// 0 [default] = unbounded.
+  vtkSetMacro(MaximumDistance, double);
+  vtkGetMacro(MaximumDistance, double);
+  ///@}
+
+  enum BackgroundType
+  {
+    Uniform = 0, ///< luminance 1 from everywhere
+    Gradient = 1,
+    Image = 2
+  };
+
+  ///@{
+  /// The light that occlusion takes away [Uniform].
+  vtkSetMacro(Background, int);
+  vtkGetMacro(Background, int);
+  ///@}
+
+  ///@{
+  /// Gradient background: where it is brightest, any length but zero [0 0 1].
+  vtkSetVector3Macro(BackgroundUp, double);
+  vtkGetVector3Macro(BackgroundUp, double);
+  ///@}
+
+  ///@{
+  /// Gradient background: luminance opposite to BackgroundUp, at least 0 [0].
+  vtkSetMacro(BackgroundBottom, double);
+  vtkGetMacro(BackgroundBottom, double);
+  ///@}
+
+  ///@{
+  /// Gradient background: luminance at BackgroundUp, at least 0 [1].
+  vtkSetMacro(BackgroundTop, double);
+  vtkGetMacro(BackgroundTop, double);
+  ///@}
+
+  ///@{
+  /// Image background: an OpenEXR file in latitude and longitude, first row at +z, first column at
+  /// +x, columns towards +y.
+  vtkSetFilePathMacro(BackgroundImage);
+  vtkGetFilePathMacro(BackgroundImage);
+  ///@}
+
+  ///@{
+  /// Fill texels that lie inside other particles from their neighbours, so that interpolation does
+  /// not darken the rim of an overlap [on]. When off they are 0.
+  vtkSetMacro(DilateInside, bool);
+  vtkGetMacro(DilateInside, bool);
+  vtkBooleanMacro(DilateInside, bool);
+  ///@}
+
+  ///@{
+  /// A texel of which less than this share is outside other particles counts as inside, 0 to 1
+  /// [0.05].
+  vtkSetMacro(InsideThreshold, double);
+  vtkGetMacro(InsideThreshold, double);
+  ///@}
+
+  enum EncodingType
+  {
+    UInt8Gamma2 = 0,  ///< byte = round(255 sqrt(value / maximum))
+    Float32Linear = 1 ///< the value itself
+  };
+
+  ///@{
+  /// How the table stores values [UInt8Gamma2].
+  vtkSetMacro(Encoding, int);
+  vtkGetMacro(Encoding, int);
+  ///@}
+
+  ///@{
+  /// Seed of all random numbers, at least 0 [1]. The same seed gives the same bits, for any number
+  /// of threads.
+  vtkSetMacro(Seed, int);
+  vtkGetMacro(Seed, int);
+  ///@}
+
+  ///@{
+  /// What the last execution did and what it could skip.
+  vtkIdType GetNumberOfParticles();
+  vtkIdType GetNumberOfTexels();
+  vtkIdType GetNumberOfRays();
+  vtkIdType GetNumberOfSamplesInside();    ///< inside another particle: no ray, no weight
+  vtkIdType GetNumberOfTexelsInside();     ///< wholly inside another particle: not sampled
+  vtkIdType GetNumberOfParticlesBuried();  ///< inside one other particle: not looked at
+  vtkIdType GetNumberOfParticlesDark();    ///< no light reaches them
+  vtkIdType GetNumberOfParticlesLeftOut(); ///< no usable position or radius
+  vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
+  vtkIdType GetNumberOfTextureBytes();     ///< size of the table
+  int GetNumberOfThreads();                ///< threads that took part
+  int GetNumberOfSamplesUsed(); ///< rays a texel; differs from SamplesPerTexel with TargetError
+  double GetEstimatedError();   ///< RMS error a texel that the pilot found, 0 without TargetError
+  double GetBakeSeconds();      ///< wall time of the whole execution
+  ///@}
 
 protected:
-  vtkSphereAmbientOcclusion() = default;
-  ~vtkSphereAmbientOcclusion() override = default;
+  vtkSphereAmbientOcclusion();
+  ~vtkSphereAmbientOcclusion() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkSphereAmbientOcclusion(const vtkSphereAmbientOcclusion&) = delete;
   void operator=(const vtkSphereAmbientOcclusion&) = delete;
+
+  char* RadiusArray = nullptr;
+  double RadiusScale = 1.0;
+  double ConstantRadius = 0.0;
+  int TextureResolution = 16;
+  int SamplesPerTexel = 49;
+  double TargetError = 0.0;
+  int Method = Automatic;
+  double MaximumDistance = 0.0;
+  int Background = Uniform;
+  double BackgroundUp[3] = { 0, 0, 1 };
+  double BackgroundBottom = 0.0;
+  double BackgroundTop = 1.0;
+  char* BackgroundImage = nullptr;
+  bool DilateInside = true;
+  double InsideThreshold = 0.05;
+  int Encoding = UInt8Gamma2;
+  int Seed = 1;
+
+  struct Internals;
+  std::unique_ptr<Internals> Impl;
 };
 
 #endif

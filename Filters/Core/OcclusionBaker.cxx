@@ -5,6 +5,7 @@
 #include "TexelMap.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace po
 {
@@ -135,14 +136,15 @@ double bakeMemory(std::size_t particles, const BakeSettings& settings)
   return static_cast<double>(particles) * (bytesPerSphere + texels * bytesPerTexel);
 }
 
-BakeResult bakeOcclusion(const SphereCloud& cloud, const BakeSettings& settings,
+BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
   const OcclusionEstimator& estimator, Progress& progress)
 {
   BakeResult result;
-  const BakeScene scene(cloud);
-  TextureCollector collector(settings, cloud.spheres.size());
+  std::vector<unsigned> particles(scene.cloud.spheres.size());
+  std::iota(particles.begin(), particles.end(), 0u);
+  TextureCollector collector(settings, particles.size());
   estimator.estimate(
-    scene, settings, progress, [&](const RawTextures& raw) { collector.add(raw); },
+    scene, particles, settings, progress, [&](const RawTextures& raw) { collector.add(raw); },
     result.counters);
   result.aborted = progress.aborted();
   if (!result.aborted)

@@ -26,11 +26,11 @@ struct BakeResult
 /// Equal textures are stored once, so that the real need is often much smaller.
 [[nodiscard]] double bakeMemory(std::size_t particles, const BakeSettings& settings);
 
-/// Bakes the visibility of the background onto all spheres of a cloud, in parallel.
+/// Bakes the visibility of the background onto all spheres of a scene, in parallel.
 ///
 /// The same input, settings and seed give the same bits for any number of threads.
 /// Throws std::runtime_error or std::bad_alloc when memory or Embree fails.
-[[nodiscard]] BakeResult bakeOcclusion(const SphereCloud& cloud, const BakeSettings& settings,
+[[nodiscard]] BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
   const OcclusionEstimator& estimator, Progress& progress);
 }
 

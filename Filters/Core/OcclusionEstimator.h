@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace po
 {
@@ -57,11 +58,12 @@ public:
 
   virtual ~OcclusionEstimator() = default;
 
-  /// Estimates all particles of the scene and hands them to `sink` in the order of the cloud, on
-  /// the calling thread. Returns early when `progress` says so; what was handed out is then
-  /// incomplete.
-  virtual void estimate(const BakeScene& scene, const BakeSettings& settings, Progress& progress,
-    const Sink& sink, BakeCounters& counters) const = 0;
+  /// Estimates the listed particles, occluded by all, and hands them to `sink` in the order of the
+  /// list, on the calling thread. Returns early when `progress` says so; what was handed out is
+  /// then incomplete.
+  virtual void estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
+    const BakeSettings& settings, Progress& progress, const Sink& sink,
+    BakeCounters& counters) const = 0;
 };
 }
 

@@ -30,11 +30,7 @@ OcclusionTextures::OcclusionTextures(
 
 float OcclusionTextures::at(std::size_t particle, Vec3d direction) const
 {
-  if (empty())
-  {
-    return 1;
-  }
-  if (rows_[particle] < 0)
+  if (!rows_ || rows_[particle] < 0)
   {
     return means_ ? means_[particle] : 1.0f;
   }

@@ -18,6 +18,12 @@ public:
   /// No textures: every value is 1.
   OcclusionTextures() = default;
 
+  /// Only mean values, one a particle, or null for 1 everywhere.
+  explicit OcclusionTextures(const float* means)
+    : means_(means)
+  {
+  }
+
   /// Bytes stand for maximum * (byte / 255)^2. Textures have resolution^2 values, see TexelMap.h.
   /// @param rows texture of each particle; negative: the particle has only its mean
   /// @param means mean value of each particle, or null: 1
@@ -28,7 +34,8 @@ public:
   OcclusionTextures(
     int resolution, const float* values, const std::int32_t* rows, const float* means);
 
-  [[nodiscard]] bool empty() const { return !bytes_ && !values_; }
+  /// Is every value 1?
+  [[nodiscard]] bool empty() const { return !bytes_ && !values_ && !means_; }
 
   /// Bilinear value where `direction` (of any length) leaves the particle's centre. The texels are
   /// decoded first, so that the interpolation is one of light, not of code values.

@@ -148,10 +148,9 @@ TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, 
 }
 
 /// Fills the T * T values and shares of one particle, which are zero on entry.
-void estimateParticle(const Plan& plan, std::size_t particle, float* values, float* shares,
-  Workspace& work, Progress& progress)
+void estimateParticle(
+  const Plan& plan, unsigned id, float* values, float* shares, Workspace& work, Progress& progress)
 {
-  const auto id = static_cast<unsigned>(particle);
   ++work.counters.particles;
   work.counters.texels += plan.texels;
   plan.scene.overlaps.find(id, work.overlaps);
@@ -187,20 +186,19 @@ std::size_t chunkSize(const Plan& plan)
 }
 }
 
-void ReferenceEstimator::estimate(const BakeScene& scene, const BakeSettings& settings,
-  Progress& progress, const Sink& sink, BakeCounters& counters) const
+void ReferenceEstimator::estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, Progress& progress, const Sink& sink, BakeCounters& counters) const
 {
   const Plan plan = makePlan(scene, settings);
-  const std::size_t particles = scene.cloud.spheres.size();
   const std::size_t chunk = chunkSize(plan);
   tbb::enumerable_thread_specific<Workspace> workspaces(settings.samplesPerTexel);
   std::vector<float> values;
   std::vector<float> shares;
 
-  progress.begin(particles * plan.texels);
-  for (std::size_t first = 0; first < particles && !progress.aborted(); first += chunk)
+  progress.begin(particles.size() * plan.texels);
+  for (std::size_t first = 0; first < particles.size() && !progress.aborted(); first += chunk)
   {
-    const std::size_t count = std::min(chunk, particles - first);
+    const std::size_t count = std::min(chunk, particles.size() - first);
     values.assign(count * plan.texels, 0.0f);
     shares.assign(count * plan.texels, 0.0f);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1),
@@ -209,7 +207,7 @@ void ReferenceEstimator::estimate(const BakeScene& scene, const BakeSettings& se
         Workspace& work = workspaces.local();
         for (std::size_t i = range.begin(); i < range.end() && !progress.aborted(); ++i)
         {
-          estimateParticle(plan, first + i, values.data() + i * plan.texels,
+          estimateParticle(plan, particles[first + i], values.data() + i * plan.texels,
             shares.data() + i * plan.texels, work, progress);
         }
       });

@@ -19,8 +19,9 @@ namespace po
 class ReferenceEstimator : public OcclusionEstimator
 {
 public:
-  void estimate(const BakeScene& scene, const BakeSettings& settings, Progress& progress,
-    const Sink& sink, BakeCounters& counters) const override;
+  void estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
+    const BakeSettings& settings, Progress& progress, const Sink& sink,
+    BakeCounters& counters) const override;
 };
 }
 

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BakedData.h"
+
+#include "vtkAppendPolyData.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+
+namespace po
+{
+namespace
+{
+/// Points and point data without cells, which would only cost memory when blocks are appended.
+vtkSmartPointer<vtkPolyData> withoutCells(vtkPolyData* block)
+{
+  auto points = vtkSmartPointer<vtkPolyData>::New();
+  points->SetPoints(block->GetPoints());
+  points->GetPointData()->ShallowCopy(block->GetPointData());
+  return points;
+}
+
+vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPolyData*>& blocks)
+{
+  vtkNew<vtkAppendPolyData> append;
+  append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
+  for (vtkPolyData* block : blocks)
+  {
+    append->AddInputData(withoutCells(block));
+  }
+  append->Update();
+  return append->GetOutput();
+}
+
+/// Per-particle results in the order of the input points.
+struct PointResults
+{
+  std::vector<std::int32_t> rowOf;
+  std::vector<float> mean;
+};
+
+PointResults scatter(const SphereCloud& cloud, const BakeResult& result, std::size_t points)
+{
+  PointResults all{ std::vector<std::int32_t>(points, -1), std::vector<float>(points, 0.0f) };
+  for (std::size_t i = 0; i < cloud.sourceIds.size(); ++i)
+  {
+    const auto point = static_cast<std::size_t>(cloud.sourceIds[i]);
+    all.rowOf[point] = result.rowOf[i];
+    all.mean[point] = result.mean[i];
+  }
+  return all;
+}
+
+/// The rows of the table that a block uses, numbered in the order of their first use.
+class RowSelection
+{
+public:
+  explicit RowSelection(std::int32_t rows)
+    : newRow_(static_cast<std::size_t>(rows), -1)
+  {
+  }
+
+  std::int32_t use(std::int32_t row)
+  {
+    if (row < 0)
+    {
+      return row;
+    }
+    std::int32_t& target = newRow_[static_cast<std::size_t>(row)];
+    if (target < 0)
+    {
+      target = static_cast<std::int32_t>(used_.size());
+      used_.push_back(row);
+    }
+    return target;
+  }
+
+  [[nodiscard]] const std::vector<std::int32_t>& used() const { return used_; }
+
+private:
+  std::vector<std::int32_t> newRow_;
+  std::vector<std::int32_t> used_;
+};
+
+template <typename Array, typename Value>
+vtkSmartPointer<vtkDataArray> copyRows(
+  const std::vector<Value>& values, std::size_t texels, const std::vector<std::int32_t>& rows)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(TextureTableArray);
+  array->SetNumberOfComponents(static_cast<int>(texels));
+  array->SetNumberOfTuples(static_cast<vtkIdType>(rows.size()));
+  Value* target = array->GetPointer(0);
+  for (const std::int32_t row : rows)
+  {
+    target = std::copy_n(values.data() + static_cast<std::size_t>(row) * texels, texels, target);
+  }
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> copyTable(
+  const EncodedTable& table, const std::vector<std::int32_t>& rows)
+{
+  const std::size_t texels =
+    static_cast<std::size_t>(table.resolution) * static_cast<std::size_t>(table.resolution);
+  return table.encoding == Encoding::UInt8Gamma2
+    ? copyRows<vtkUnsignedCharArray>(table.bytes, texels, rows)
+    : copyRows<vtkFloatArray>(table.floats, texels, rows);
+}
+
+void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offset,
+  const BakeResult& result, const OcclusionParameters& parameters)
+{
+  const vtkIdType points = block->GetNumberOfPoints();
+  vtkNew<vtkFloatArray> mean;
+  mean->SetName(OcclusionArray);
+  mean->SetNumberOfTuples(points);
+  std::copy_n(all.mean.data() + offset, points, mean->GetPointer(0));
+
+  RowSelection selection(result.table.rows);
+  vtkNew<vtkIntArray> index;
+  index->SetName(TextureIndexArray);
+  index->SetNumberOfTuples(points);
+  std::transform(all.rowOf.data() + offset, all.rowOf.data() + offset + points,
+    index->GetPointer(0), [&](std::int32_t row) { return selection.use(row); });
+
+  block->GetPointData()->AddArray(mean);
+  block->GetPointData()->AddArray(index);
+  block->GetFieldData()->AddArray(copyTable(result.table, selection.used()));
+  parameters.ToFieldData(block->GetFieldData());
+}
+}
+
+std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
+{
+  std::vector<vtkPolyData*> blocks;
+  const auto add = [&](vtkDataObject* leaf)
+  {
+    auto* block = vtkPolyData::SafeDownCast(leaf);
+    if (block && block->GetNumberOfPoints() > 0)
+    {
+      blocks.push_back(block);
+    }
+  };
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    auto leaves = vtk::TakeSmartPointer(composite->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+    {
+      add(leaves->GetCurrentDataObject());
+    }
+  }
+  else
+  {
+    add(data);
+  }
+  return blocks;
+}
+
+std::optional<SphereCloud> readBlocks(
+  const std::vector<vtkPolyData*>& blocks, const RadiusSettings& settings, std::string& error)
+{
+  if (blocks.size() == 1)
+  {
+    return readSphereCloud(*blocks.front(), settings, error);
+  }
+  const vtkSmartPointer<vtkPolyData> all =
+    blocks.empty() ? vtkSmartPointer<vtkPolyData>::New() : appendBlocks(blocks);
+  return readSphereCloud(*all, settings, error);
+}
+
+void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,
+  const BakeResult& result, const OcclusionParameters& parameters)
+{
+  std::size_t points = 0;
+  for (vtkPolyData* block : blocks)
+  {
+    points += static_cast<std::size_t>(block->GetNumberOfPoints());
+  }
+  const PointResults all = scatter(cloud, result, points);
+  std::size_t offset = 0;
+  for (vtkPolyData* block : blocks)
+  {
+    attachToBlock(block, all, offset, result, parameters);
+    offset += static_cast<std::size_t>(block->GetNumberOfPoints());
+  }
+}
+}

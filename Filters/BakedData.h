@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_BakedData_h
+#define po_BakedData_h
+
+// From the blocks of a data set to one cloud of spheres, and from a bake back onto the blocks.
+
+#include "OcclusionBaker.h"
+#include "OcclusionParameters.h"
+#include "SphereInput.h"
+
+#include "vtkSmartPointer.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkPolyData;
+
+namespace po
+{
+/// The poly data blocks of `data` that have points: the data set itself, or the leaves of a
+/// composite one.
+[[nodiscard]] std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data);
+
+/// One cloud of the particles of all blocks; sourceIds count through the blocks in order.
+/// Nothing, and a message in `error`, under the conditions of readSphereCloud.
+[[nodiscard]] std::optional<SphereCloud> readBlocks(
+  const std::vector<vtkPolyData*>& blocks, const RadiusSettings& settings, std::string& error);
+
+/// Adds the arrays of the data contract to each block. A block gets the rows of the table that its
+/// particles use; particles that were left out get row -1 and visibility 0.
+void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,
+  const BakeResult& result, const OcclusionParameters& parameters);
+}
+
+#endif

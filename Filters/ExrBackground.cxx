@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExrBackground.h"
+
+#include "ExrFile.h"
+
+#include <ImfChannelList.h>
+#include <ImfChromaticities.h>
+#include <ImfEnvmap.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace Imf = OPENEXR_IMF_NAMESPACE;
+
+namespace po
+{
+namespace
+{
+
+// 16384 x 8192: the largest panoramas in use; half a gigabyte of luminance.
+constexpr ExrLimits Limits = { 1 << 16, 1 << 16, 1 << 13, std::int64_t{ 1 } << 27 };
+
+// Rows that are decoded at a time: what ZIP, PIZ and DWA compress together, times two.
+constexpr int RowsAtATime = 64;
+
+struct WeightedChannel
+{
+  std::string Name;
+  double Weight;
+};
+using LuminanceChannels = std::vector<WeightedChannel>;
+
+// Luminance is row Y of the RGB to XYZ matrix that the primaries and the white point define.
+LuminanceChannels RgbChannels(const Imf::Header& header)
+{
+  if (!Imf::hasChromaticities(header))
+  {
+    return { { "R", 0.2126 }, { "G", 0.7152 }, { "B", 0.0722 } };
+  }
+  const auto toXyz = Imf::RGBtoXYZ(Imf::chromaticities(header), 1.0f);
+  return { { "R", toXyz[0][1] }, { "G", toXyz[1][1] }, { "B", toXyz[2][1] } };
+}
+
+LuminanceChannels ChooseChannels(const Imf::Header& header)
+{
+  const Imf::ChannelList& channels = header.channels();
+  if (channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B"))
+  {
+    return RgbChannels(header);
+  }
+  if (channels.findChannel("Y"))
+  {
+    return { { "Y", 1.0 } };
+  }
+  LuminanceChannels single;
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+  {
+    if (std::string(channel.name()) != "A")
+    {
+      single.push_back({ channel.name(), 1.0 });
+    }
+  }
+  return single.size() == 1 ? single : LuminanceChannels{};
+}
+
+std::string ChannelNames(const Imf::MultiPartInputFile& file)
+{
+  std::string names;
+  for (int part = 0; part < file.parts(); ++part)
+  {
+    const Imf::ChannelList& channels = file.header(part).channels();
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+    {
+      names += (names.empty() ? "" : ", ") + std::string(channel.name());
+    }
+  }
+  return names.empty() ? "none" : names;
+}
+
+bool IsDeep(const Imf::Header& header)
+{
+  return header.hasType() && Imf::isDeepData(header.type());
+}
+
+int ChoosePart(const std::string& fileName, const Imf::MultiPartInputFile& file)
+{
+  bool deep = false;
+  for (int part = 0; part < file.parts(); ++part)
+  {
+    const Imf::Header& header = file.header(part);
+    deep = deep || IsDeep(header);
+    if (!IsDeep(header) && !ChooseChannels(header).empty())
+    {
+      return part;
+    }
+  }
+  RefuseExr(fileName,
+    deep ? "it holds a deep image; flatten it first."
+         : "it has neither R, G, B nor Y nor one single channel but these: " + ChannelNames(file) +
+        "; write it with R, G, B.");
+}
+
+void RequireWholeSphere(
+  const std::string& fileName, const Imf::Header& header, const LuminanceChannels& channels)
+{
+  if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
+  {
+    RefuseExr(fileName, "it is a cube map; convert it to latitude/longitude.");
+  }
+  if (header.dataWindow() != header.displayWindow())
+  {
+    RefuseExr(fileName,
+      "its data window differs from its display window, so that it does not cover the whole "
+      "sphere; "
+      "write it uncropped.");
+  }
+  for (const WeightedChannel& channel : channels)
+  {
+    const Imf::Channel& stored = header.channels()[channel.Name];
+    if (stored.xSampling != 1 || stored.ySampling != 1)
+    {
+      RefuseExr(
+        fileName, "its channel " + channel.Name + " is subsampled; write it at full resolution.");
+    }
+  }
+}
+
+// Reads and weighs a block of rows at a time. The result grows with what was really read, so that a
+// damaged size in the header cannot ask for more memory than the file justifies.
+class LuminanceReader
+{
+public:
+  LuminanceReader(Imf::InputPart& part, const LuminanceChannels& channels)
+    : Part(part)
+    , Channels(channels)
+    , Window(part.header().dataWindow())
+    , Width(Window.max.x - Window.min.x + 1)
+  {
+  }
+
+  void Append(int firstRow, std::vector<float>& luminance)
+  {
+    const int lastRow = std::min(firstRow + RowsAtATime - 1, this->Window.max.y);
+    const std::size_t pixels = std::size_t(this->Width) * (lastRow - firstRow + 1);
+    this->Read(firstRow, lastRow, pixels);
+    const std::size_t start = luminance.size();
+    luminance.resize(start + pixels);
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+    {
+      double sum = 0.0;
+      for (std::size_t channel = 0; channel < this->Channels.size(); ++channel)
+      {
+        sum += this->Channels[channel].Weight * this->Rows[channel * pixels + pixel];
+      }
+      luminance[start + pixel] = static_cast<float>(sum);
+    }
+  }
+
+private:
+  void Read(int firstRow, int lastRow, std::size_t pixels)
+  {
+    this->Rows.resize(pixels * this->Channels.size());
+    Imf::FrameBuffer frame;
+    for (std::size_t channel = 0; channel < this->Channels.size(); ++channel)
+    {
+      frame.insert(this->Channels[channel].Name,
+        Imf::Slice::Make(Imf::FLOAT, this->Rows.data() + channel * pixels,
+          IMATH_NAMESPACE::V2i(this->Window.min.x, firstRow), this->Width, lastRow - firstRow + 1));
+    }
+    this->Part.setFrameBuffer(frame);
+    this->Part.readPixels(firstRow, lastRow);
+  }
+
+  Imf::InputPart& Part;
+  const LuminanceChannels& Channels;
+  IMATH_NAMESPACE::Box2i Window;
+  int Width;
+  std::vector<float> Rows;
+};
+
+LatLongImage ReadLuminance(Imf::InputPart& part, const LuminanceChannels& channels)
+{
+  const auto& window = part.header().dataWindow();
+  LatLongImage image;
+  image.Width = window.max.x - window.min.x + 1;
+  image.Height = window.max.y - window.min.y + 1;
+  LuminanceReader reader(part, channels);
+  for (int row = window.min.y; row <= window.max.y; row += RowsAtATime)
+  {
+    reader.Append(row, image.Luminance);
+  }
+  return image;
+}
+
+void RequireLuminance(const std::string& fileName, const LatLongImage& image)
+{
+  const auto isBad = [](float value) { return !std::isfinite(value) || value < 0.0f; };
+  const auto bad = std::count_if(image.Luminance.begin(), image.Luminance.end(), isBad);
+  if (bad > 0)
+  {
+    RefuseExr(fileName,
+      std::to_string(bad) + " of " + std::to_string(image.Luminance.size()) +
+        " pixels are negative, infinite or not a number; clamp them to finite values from 0.");
+  }
+}
+
+}
+
+LatLongImage ReadLatLongImage(const std::string& fileName)
+{
+  CheckExrFile(fileName, Limits);
+  LatLongImage image;
+  WithExrReadErrors(fileName,
+    [&]()
+    {
+      Imf::MultiPartInputFile file(fileName.c_str());
+      const int number = ChoosePart(fileName, file);
+      Imf::InputPart part(file, number);
+      const LuminanceChannels channels = ChooseChannels(part.header());
+      RequireWholeSphere(fileName, part.header(), channels);
+      image = ReadLuminance(part, channels);
+      RequireLuminance(fileName, image);
+    });
+  return image;
+}
+
+}

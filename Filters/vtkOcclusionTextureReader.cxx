@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOcclusionTextureReader.h"
+
+#include "OcclusionEncoding.h"
+#include "OcclusionParameters.h"
+#include "OcclusionTextureFile.h"
+
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <vector>
+
+vtkStandardNewMacro(vtkOcclusionTextureReader);
+
+namespace
+{
+
+using Progress = std::function<void(double)>;
+
+template <typename Array>
+vtkSmartPointer<Array> NewTable(const po::OcclusionTextureFile& file)
+{
+  auto table = vtkSmartPointer<Array>::New();
+  table->SetName(po::TextureTableArray);
+  table->SetNumberOfComponents(file.Resolution() * file.Resolution());
+  table->SetNumberOfTuples(file.TextureCount());
+  return table;
+}
+
+// Reads texture by texture: no second copy of the table is held.
+void ReadEachTexture(po::OcclusionTextureFile& file, const Progress& progress,
+  const std::function<void(vtkIdType row)>& read)
+{
+  for (vtkIdType row = 0; row < file.TextureCount(); ++row)
+  {
+    if (row % 1024 == 0)
+    {
+      progress(static_cast<double>(row) / static_cast<double>(file.TextureCount()));
+    }
+    read(row);
+  }
+}
+
+vtkSmartPointer<vtkDataArray> ReadFloats(po::OcclusionTextureFile& file, const Progress& progress)
+{
+  auto table = NewTable<vtkFloatArray>(file);
+  const vtkIdType size = table->GetNumberOfComponents();
+  ReadEachTexture(
+    file, progress, [&](vtkIdType row) { file.ReadTexture(row, table->GetPointer(row * size)); });
+  return table;
+}
+
+vtkSmartPointer<vtkDataArray> ReadBytes(
+  po::OcclusionTextureFile& file, double maximum, const Progress& progress)
+{
+  auto table = NewTable<vtkUnsignedCharArray>(file);
+  const vtkIdType size = table->GetNumberOfComponents();
+  std::vector<float> texels(size);
+  ReadEachTexture(file, progress,
+    [&](vtkIdType row)
+    {
+      file.ReadTexture(row, texels.data());
+      std::transform(texels.begin(), texels.end(), table->GetPointer(row * size),
+        [maximum](float value) { return po::EncodeGamma2(value, maximum); });
+    });
+  return table;
+}
+
+vtkSmartPointer<vtkDataArray> ReadTable(po::OcclusionTextureFile& file, const Progress& progress)
+{
+  const std::string& encoding = file.Parameters().Get("encoding");
+  if (encoding == po::UInt8Gamma2)
+  {
+    return ReadBytes(file, file.Parameters().GetDouble("maximum"), progress);
+  }
+  if (encoding == po::Float32Linear)
+  {
+    return ReadFloats(file, progress);
+  }
+  throw std::runtime_error("the textures are encoded as \"" + encoding +
+    "\", which this version does not know; use a newer version.");
+}
+
+void AddParticleArrays(po::OcclusionTextureFile& file, vtkPointData* pointData)
+{
+  vtkNew<vtkFloatArray> means;
+  means->SetName(po::OcclusionArray);
+  means->SetNumberOfTuples(file.ParticleCount());
+  vtkNew<vtkIntArray> rows;
+  rows->SetName(po::TextureIndexArray);
+  rows->SetNumberOfTuples(file.ParticleCount());
+  file.ReadParticles(rows->GetPointer(0), means->GetPointer(0));
+  pointData->AddArray(means);
+  pointData->AddArray(rows);
+}
+
+void RequireSameParticles(
+  const std::string& fileName, const po::OcclusionTextureFile& file, vtkPolyData* input)
+{
+  if (input->GetNumberOfPoints() != file.ParticleCount())
+  {
+    throw std::runtime_error("\"" + fileName + "\" is for " + std::to_string(file.ParticleCount()) +
+      " particles, but the input has " + std::to_string(input->GetNumberOfPoints()) +
+      " points; choose the data set that was baked, before any filter that removes points.");
+  }
+}
+
+// Everything is read into `result` first, so that a failure leaves nothing half-read in the output.
+void ReadOnto(
+  const std::string& fileName, vtkPolyData* input, vtkPolyData* output, const Progress& progress)
+{
+  po::OcclusionTextureFile file(fileName);
+  vtkNew<vtkPolyData> result;
+  if (input)
+  {
+    RequireSameParticles(fileName, file, input);
+    result->ShallowCopy(input);
+    AddParticleArrays(file, result->GetPointData());
+  }
+  result->GetFieldData()->AddArray(ReadTable(file, progress));
+  file.Parameters().ToFieldData(result->GetFieldData());
+  output->ShallowCopy(result);
+}
+
+}
+
+vtkOcclusionTextureReader::~vtkOcclusionTextureReader()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkOcclusionTextureReader::FillInputPortInformation(int port, vtkInformation* info)
+{
+  this->Superclass::FillInputPortInformation(port, info);
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+int vtkOcclusionTextureReader::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!this->FileName || !*this->FileName)
+  {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
+    vtkErrorMacro("No file name; set FileName.");
+    return 0;
+  }
+  this->SetErrorCode(vtkErrorCode::NoError);
+  try
+  {
+    ReadOnto(this->FileName, vtkPolyData::GetData(inputVector[0]),
+      vtkPolyData::GetData(outputVector), [this](double done) { this->UpdateProgress(done); });
+    return 1;
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+    vtkErrorMacro("Not enough memory for the textures of \"" << this->FileName << "\".");
+  }
+  catch (const std::exception& error)
+  {
+    this->SetErrorCode(vtkErrorCode::FileFormatError);
+    vtkErrorMacro(<< error.what());
+  }
+  return 0;
+}
+
+vtkSmartPointer<vtkFloatArray> vtkOcclusionTextureReader::ReadTexture(vtkIdType row)
+{
+  try
+  {
+    po::OcclusionTextureFile file(this->FileName ? this->FileName : "");
+    auto texture = vtkSmartPointer<vtkFloatArray>::New();
+    texture->SetNumberOfComponents(file.Resolution() * file.Resolution());
+    texture->SetNumberOfTuples(1);
+    file.ReadTexture(row, texture->GetPointer(0));
+    return texture;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return nullptr;
+  }
+}
+
+void vtkOcclusionTextureReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+}

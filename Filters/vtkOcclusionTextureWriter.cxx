@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkOcclusionTextureWriter.h"
+
+#include "OcclusionEncoding.h"
+#include "OcclusionParameters.h"
+#include "OcclusionTextureFile.h"
+
+#include "vtkErrorCode.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkIntArray.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkOcclusionTextureWriter);
+
+namespace
+{
+
+template <typename Array>
+Array* RequireArray(vtkFieldData* data, const char* name, const char* where, const char* type)
+{
+  vtkAbstractArray* found = data->GetAbstractArray(name);
+  if (!found)
+  {
+    throw std::runtime_error(std::string("The input has no array \"") + name + "\" in its " +
+      where + "; bake it with Sphere Ambient Occlusion first.");
+  }
+  auto* array = Array::SafeDownCast(found);
+  if (!array)
+  {
+    throw std::runtime_error(std::string("The array \"") + name + "\" in the " + where +
+      " is of type " + found->GetDataTypeAsString() + ", not " + type + "; bake the input again.");
+  }
+  return array;
+}
+
+void RequireRows(vtkIntArray* rows, vtkIdType textures)
+{
+  for (vtkIdType i = 0; i < rows->GetNumberOfValues(); ++i)
+  {
+    const int row = rows->GetValue(i);
+    if (row < -1 || row >= textures)
+    {
+      throw std::runtime_error("Particle " + std::to_string(i) + " refers to texture " +
+        std::to_string(row) + ", but the array \"" + po::TextureTableArray + "\" has " +
+        std::to_string(textures) + " tuples; bake the input again.");
+    }
+  }
+}
+
+void RequireOneValueAPoint(vtkDataArray* array, vtkIdType points)
+{
+  if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != points)
+  {
+    throw std::runtime_error(std::string("The array \"") + array->GetName() +
+      "\" does not have one value for each of the " + std::to_string(points) +
+      " points; bake the input again.");
+  }
+}
+
+int RequireResolution(const po::OcclusionParameters& parameters, vtkDataArray* table)
+{
+  const long long side = parameters.GetInteger("resolution");
+  const long long components = table->GetNumberOfComponents();
+  if (side < 1 || side > components || side * side != components)
+  {
+    throw std::runtime_error("The parameter \"resolution\" is " + std::to_string(side) +
+      ", but the array \"" + po::TextureTableArray + "\" has " + std::to_string(components) +
+      " components rather than its square; bake the input again.");
+  }
+  return static_cast<int>(side);
+}
+
+using TextureFunction = std::function<void(std::int64_t, float*)>;
+
+TextureFunction CopyTextures(vtkFieldData* fields)
+{
+  auto* table = RequireArray<vtkFloatArray>(fields, po::TextureTableArray, "field data", "float");
+  return [table](std::int64_t row, float* texels)
+  {
+    const float* first = table->GetPointer(row * table->GetNumberOfComponents());
+    std::copy_n(first, table->GetNumberOfComponents(), texels);
+  };
+}
+
+TextureFunction DecodeTextures(vtkFieldData* fields, double maximum)
+{
+  auto* table = RequireArray<vtkUnsignedCharArray>(
+    fields, po::TextureTableArray, "field data", "unsigned char");
+  if (!(maximum == 0.0 || (maximum >= po::SmallestGamma2Maximum && maximum <= VTK_FLOAT_MAX)))
+  {
+    throw std::runtime_error("The parameter \"maximum\" of the texture table is " +
+      std::to_string(maximum) + "; 0 or a positive float is needed.");
+  }
+  return [table, maximum](std::int64_t row, float* texels)
+  {
+    const unsigned char* first = table->GetPointer(row * table->GetNumberOfComponents());
+    std::transform(first, first + table->GetNumberOfComponents(), texels,
+      [maximum](unsigned char byte) { return po::DecodeGamma2(byte, maximum); });
+  };
+}
+
+TextureFunction LinearTextures(vtkFieldData* fields, const po::OcclusionParameters& parameters)
+{
+  const std::string& encoding = parameters.Get("encoding");
+  if (encoding == po::UInt8Gamma2)
+  {
+    return DecodeTextures(fields, parameters.GetDouble("maximum"));
+  }
+  if (encoding == po::Float32Linear)
+  {
+    return CopyTextures(fields);
+  }
+  throw std::runtime_error("The textures are encoded as \"" + encoding + "\"; only " +
+    po::UInt8Gamma2 + " and " + po::Float32Linear + " can be written.");
+}
+
+po::OcclusionTextureSource DescribeInput(vtkPolyData* input)
+{
+  const vtkIdType points = input->GetNumberOfPoints();
+  auto* means =
+    RequireArray<vtkFloatArray>(input->GetPointData(), po::OcclusionArray, "point data", "float");
+  auto* rows =
+    RequireArray<vtkIntArray>(input->GetPointData(), po::TextureIndexArray, "point data", "int");
+  auto* table = RequireArray<vtkDataArray>(
+    input->GetFieldData(), po::TextureTableArray, "field data", "numbers");
+  RequireOneValueAPoint(means, points);
+  RequireOneValueAPoint(rows, points);
+  RequireRows(rows, table->GetNumberOfTuples());
+
+  po::OcclusionTextureSource source;
+  source.Parameters = po::OcclusionParameters::FromFieldData(input->GetFieldData());
+  source.Resolution = RequireResolution(source.Parameters, table);
+  source.TextureCount = table->GetNumberOfTuples();
+  source.ParticleCount = points;
+  source.Texture = LinearTextures(input->GetFieldData(), source.Parameters);
+  source.Rows = rows->GetPointer(0);
+  source.Means = means->GetPointer(0);
+  return source;
+}
+
+}
+
+vtkOcclusionTextureWriter::~vtkOcclusionTextureWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkOcclusionTextureWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  return 1;
+}
+
+int vtkOcclusionTextureWriter::Write()
+{
+  const int executed = this->Superclass::Write();
+  return executed && this->GetErrorCode() == vtkErrorCode::NoError;
+}
+
+void vtkOcclusionTextureWriter::WriteData()
+{
+  if (!this->FileName || !*this->FileName)
+  {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
+    vtkErrorMacro("No file name; set FileName.");
+    return;
+  }
+  try
+  {
+    po::OcclusionTextureSource source = DescribeInput(vtkPolyData::SafeDownCast(this->GetInput()));
+    const TextureFunction texture = source.Texture;
+    const double count = static_cast<double>(source.TextureCount);
+    source.Texture = [&](std::int64_t row, float* texels)
+    {
+      if (row % 1024 == 0)
+      {
+        this->UpdateProgress(row / count);
+      }
+      texture(row, texels);
+    };
+    po::WriteOcclusionTextures(this->FileName, source);
+  }
+  catch (const std::exception& error)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkOcclusionTextureWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+}

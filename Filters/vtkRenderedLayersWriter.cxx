@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkRenderedLayersWriter.h"
+
+#include "ExrLayers.h"
+
+#include "vtkErrorCode.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+vtkStandardNewMacro(vtkRenderedLayersWriter);
+
+namespace
+{
+
+struct ImageSize
+{
+  int Width;
+  int Height;
+  std::size_t Pixels() const { return std::size_t(this->Width) * this->Height; }
+};
+
+ImageSize RequireImage(vtkImageData* image)
+{
+  std::array<int, 3> size;
+  image->GetDimensions(size.data());
+  if (size[0] < 1 || size[1] < 1 || size[2] != 1)
+  {
+    throw std::runtime_error("The image has " + std::to_string(size[0]) + " x " +
+      std::to_string(size[1]) + " x " + std::to_string(size[2]) +
+      " pixels; an image of one layer in z, with pixels, is needed.");
+  }
+  return { size[0], size[1] };
+}
+
+// Calls store(pixel in the file, tuple of the array): row 0 of the file is the top one of the
+// image.
+template <typename Store>
+void ForEachPixel(const ImageSize& size, const Store& store)
+{
+  for (int row = 0; row < size.Height; ++row)
+  {
+    const vtkIdType tuple = vtkIdType{ size.Height - 1 - row } * size.Width;
+    for (int column = 0; column < size.Width; ++column)
+    {
+      store(std::size_t(row) * size.Width + column, tuple + column);
+    }
+  }
+}
+
+// IEC 61966-2-1, the inverse of sRGB's transfer function.
+std::array<float, 256> LinearFromSrgb()
+{
+  std::array<float, 256> linear;
+  for (int byte = 0; byte < 256; ++byte)
+  {
+    const double value = byte / 255.0;
+    linear[byte] =
+      static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+  }
+  return linear;
+}
+
+void AddColor(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+{
+  auto* bytes = vtkUnsignedCharArray::SafeDownCast(array);
+  if (!bytes || bytes->GetNumberOfComponents() != 4)
+  {
+    throw std::runtime_error("The array \"RGBA\" must be of unsigned char with 4 components.");
+  }
+  static const std::array<float, 256> linear = LinearFromSrgb();
+  std::array<std::vector<half>, 4> planes;
+  planes.fill(std::vector<half>(size.Pixels()));
+  ForEachPixel(size,
+    [&](std::size_t pixel, vtkIdType tuple)
+    {
+      const unsigned char* rgba = bytes->GetPointer(4 * tuple);
+      const float alpha = rgba[3] / 255.0f;
+      for (int color = 0; color < 3; ++color)
+      {
+        planes[color][pixel] = alpha * linear[rgba[color]];
+      }
+      planes[3][pixel] = alpha;
+    });
+  const std::array<const char*, 4> names = { "R", "G", "B", "A" };
+  for (int plane = 0; plane < 4; ++plane)
+  {
+    channels.push_back({ names[plane], std::move(planes[plane]) });
+  }
+}
+
+void AddIds(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+{
+  if (array->GetNumberOfComponents() != 1)
+  {
+    throw std::runtime_error("The array \"id\" must have one component.");
+  }
+  // Doubles hold every id up to 2^53; what a UINT can hold is far below.
+  constexpr double largest = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> ids(size.Pixels());
+  ForEachPixel(size,
+    [&](std::size_t pixel, vtkIdType tuple)
+    {
+      const double id = array->GetComponent(tuple, 0);
+      if (!(id >= -1.0 && id <= largest))
+      {
+        throw std::runtime_error("The array \"id\" holds " + std::to_string(id) +
+          "; OpenEXR can hold 0 to 4294967294, and -1 for background.");
+      }
+      ids[pixel] =
+        id < 0.0 ? std::numeric_limits<std::uint32_t>::max() : static_cast<std::uint32_t>(id);
+    });
+  channels.push_back({ "id", std::move(ids) });
+}
+
+void RequireComponents(vtkDataArray* array)
+{
+  const std::string name = array->GetName();
+  const int components = array->GetNumberOfComponents();
+  const int expected = name == "Z" || name == "AO" ? 1 : name == "N" ? 3 : components;
+  if (components != expected || components > 4)
+  {
+    throw std::runtime_error("The array \"" + name + "\" has " + std::to_string(components) +
+      " components; " + (components == expected ? "1 to 4" : std::to_string(expected)) +
+      " can be written.");
+  }
+}
+
+void AddFloats(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+{
+  RequireComponents(array);
+  const std::array<const char*, 4> suffixes = { ".X", ".Y", ".Z", ".W" };
+  const int components = array->GetNumberOfComponents();
+  for (int component = 0; component < components; ++component)
+  {
+    std::vector<float> values(size.Pixels());
+    ForEachPixel(size,
+      [&](std::size_t pixel, vtkIdType tuple)
+      { values[pixel] = static_cast<float>(array->GetComponent(tuple, component)); });
+    const std::string suffix = components > 1 ? suffixes[component] : "";
+    channels.push_back({ array->GetName() + suffix, std::move(values) });
+  }
+}
+
+bool IsReal(vtkDataArray* array)
+{
+  return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
+}
+
+// Returns false for what has no place in the file.
+bool AddArray(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+{
+  const std::string name = array->GetName() ? array->GetName() : "";
+  if (name == "RGBA")
+  {
+    AddColor(size, array, channels);
+  }
+  else if (name == "id" && !IsReal(array))
+  {
+    AddIds(size, array, channels);
+  }
+  else if (!name.empty() && name != "id" && IsReal(array))
+  {
+    AddFloats(size, array, channels);
+  }
+  else
+  {
+    return false;
+  }
+  return true;
+}
+
+// Returns the names of the arrays that are left out.
+std::string WriteImage(const std::string& fileName, vtkImageData* image)
+{
+  const ImageSize size = RequireImage(image);
+  std::vector<po::ExrChannel> channels;
+  std::string leftOut;
+  vtkPointData* arrays = image->GetPointData();
+  for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = arrays->GetArray(i);
+    if (!array || !AddArray(size, array, channels))
+    {
+      const char* name = arrays->GetArrayName(i);
+      leftOut += std::string(leftOut.empty() ? "" : ", ") + (name ? name : "(unnamed)");
+    }
+  }
+  if (channels.empty())
+  {
+    throw std::runtime_error("The image has no point array that can be written as a layer "
+                             "(RGBA, Z, AO, N, id or any array of floats); it has: " +
+      (leftOut.empty() ? "none" : leftOut) + ".");
+  }
+  po::WriteExrLayers(fileName, size.Width, size.Height, channels);
+  return leftOut;
+}
+
+}
+
+vtkRenderedLayersWriter::~vtkRenderedLayersWriter()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkRenderedLayersWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
+  return 1;
+}
+
+int vtkRenderedLayersWriter::Write()
+{
+  const int executed = this->Superclass::Write();
+  return executed && this->GetErrorCode() == vtkErrorCode::NoError;
+}
+
+void vtkRenderedLayersWriter::WriteData()
+{
+  if (!this->FileName || !*this->FileName)
+  {
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
+    vtkErrorMacro("No file name; set FileName.");
+    return;
+  }
+  try
+  {
+    const std::string leftOut =
+      WriteImage(this->FileName, vtkImageData::SafeDownCast(this->GetInput()));
+    if (!leftOut.empty())
+    {
+      vtkWarningMacro(
+        "Left out, since they are neither floats nor \"id\" nor \"RGBA\": " << leftOut);
+    }
+  }
+  catch (const std::exception& error)
+  {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
+    vtkErrorMacro(<< error.what());
+  }
+}
+
+void vtkRenderedLayersWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+}

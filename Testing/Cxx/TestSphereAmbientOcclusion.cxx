@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "VTKErrors.h"
+
+#include "vtkSphereAmbientOcclusion.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <thread>
+
+namespace
+{
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/// n x n x n spheres that touch, with a point array of radii.
+vtkSmartPointer<vtkPolyData> lattice(int n, const char* arrayName = "radius", double shift = 0)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> radii;
+  radii->SetName(arrayName);
+  for (int i = 0; i < n * n * n; ++i)
+  {
+    points->InsertNextPoint(shift + i % n, i / n % n, i / (n * n));
+    radii->InsertNextValue(0.5);
+  }
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(radii);
+  return data;
+}
+
+vtkDoubleArray* radiiOf(vtkPolyData* data)
+{
+  return vtkDoubleArray::SafeDownCast(data->GetPointData()->GetArray("radius"));
+}
+
+std::string parameter(vtkFieldData* field, const std::string& key)
+{
+  auto* strings =
+    vtkStringArray::SafeDownCast(field->GetAbstractArray("AmbientOcclusionParameters"));
+  for (vtkIdType i = 0; strings && i < strings->GetNumberOfValues(); ++i)
+  {
+    const std::string entry = strings->GetValue(i);
+    if (entry.compare(0, key.size() + 1, key + "=") == 0)
+    {
+      return entry.substr(key.size() + 1);
+    }
+  }
+  return "(missing)";
+}
+
+/// The one error of executing the filter, "" if there is none.
+std::string errorOf(vtkSphereAmbientOcclusion* filter)
+{
+  ErrorCatcher errors(filter);
+  filter->Update();
+  EXPECT_LE(errors.Count(), 1);
+  return errors.Text();
+}
+
+TEST(SphereAmbientOcclusion, OutputFollowsTheDataContract)
+{
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  const auto input = lattice(3);
+  filter->SetInputData(input);
+  filter->Update();
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
+  ASSERT_EQ(output->GetNumberOfPoints(), 27);
+  EXPECT_TRUE(output->GetPointData()->HasArray("radius"));
+  EXPECT_FALSE(input->GetPointData()->HasArray("AmbientOcclusion")); // the input is untouched
+
+  auto* mean =
+    vtkFloatArray::SafeDownCast(output->GetPointData()->GetAbstractArray("AmbientOcclusion"));
+  auto* index =
+    vtkIntArray::SafeDownCast(output->GetPointData()->GetAbstractArray("AmbientOcclusionTexture"));
+  auto* table = vtkUnsignedCharArray::SafeDownCast(
+    output->GetFieldData()->GetAbstractArray("AmbientOcclusionTextures"));
+  ASSERT_TRUE(mean && index && table);
+  EXPECT_EQ(mean->GetNumberOfTuples(), 27);
+  EXPECT_EQ(mean->GetNumberOfComponents(), 1);
+  EXPECT_EQ(table->GetNumberOfComponents(), 256);
+  EXPECT_EQ(table->GetNumberOfTuples(), filter->GetNumberOfTextures());
+  for (vtkIdType i = 0; i < 27; ++i)
+  {
+    EXPECT_GE(mean->GetValue(i), 0);
+    EXPECT_LE(mean->GetValue(i), 1);
+    EXPECT_GE(index->GetValue(i), 0);
+    EXPECT_LT(index->GetValue(i), table->GetNumberOfTuples());
+  }
+  const unsigned char* bytes = table->GetPointer(0);
+  // The largest value of the table is the scale.
+  EXPECT_EQ(*std::max_element(bytes, bytes + table->GetNumberOfValues()), 255);
+
+  EXPECT_EQ(parameter(output->GetFieldData(), "resolution"), "16");
+  EXPECT_EQ(parameter(output->GetFieldData(), "encoding"), "UInt8Gamma2");
+  EXPECT_EQ(std::stod(parameter(output->GetFieldData(), "gamma")), 2);
+  EXPECT_EQ(std::stod(parameter(output->GetFieldData(), "maximum")), 1);
+  EXPECT_EQ(parameter(output->GetFieldData(), "samplesPerTexel"), "49");
+  EXPECT_EQ(parameter(output->GetFieldData(), "seed"), "1");
+  EXPECT_EQ(parameter(output->GetFieldData(), "version"), "1");
+}
+
+TEST(SphereAmbientOcclusion, CornersSeeMoreThanTheMiddle)
+{
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetInputData(lattice(3));
+  filter->SetEncoding(vtkSphereAmbientOcclusion::Float32Linear);
+  filter->SetTextureResolution(8);
+  filter->Update();
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
+  vtkDataArray* mean = output->GetPointData()->GetArray("AmbientOcclusion");
+  EXPECT_GT(mean->GetComponent(0, 0), 2 * mean->GetComponent(13, 0));
+  auto* table = vtkFloatArray::SafeDownCast(
+    output->GetFieldData()->GetAbstractArray("AmbientOcclusionTextures"));
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->GetNumberOfComponents(), 64);
+  // Corner 0 has its neighbours towards +x, +y, +z: direction (-1,-1,-1), row 5, column 5, is open.
+  const double row =
+    output->GetPointData()->GetArray("AmbientOcclusionTexture")->GetComponent(0, 0);
+  EXPECT_GT(table->GetComponent(static_cast<vtkIdType>(row), 5 * 8 + 5), 0.95);
+  EXPECT_LT(table->GetComponent(static_cast<vtkIdType>(row), 2 * 8 + 1), 0.5);
+}
+
+TEST(SphereAmbientOcclusion, EqualTexturesAreStoredOnce)
+{
+  // Far apart: all particles are fully open.
+  auto data = lattice(2);
+  for (vtkIdType i = 0; i < 8; ++i)
+  {
+    double p[3];
+    data->GetPoint(i, p);
+    data->GetPoints()->SetPoint(i, 1e9 * p[0], 1e9 * p[1], 1e9 * p[2]);
+  }
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetInputData(data);
+  filter->Update();
+  EXPECT_EQ(filter->GetNumberOfTextures(), 1);
+  EXPECT_EQ(filter->GetNumberOfTextureBytes(), 256);
+}
+
+TEST(SphereAmbientOcclusion, UsesMoreThanOneThreadAndGivesTheSameBits)
+{
+  std::vector<std::string> tables;
+  int threads = 0;
+  for (const std::size_t limit : { 1, 2, 7 })
+  {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
+    vtkNew<vtkSphereAmbientOcclusion> filter;
+    filter->SetInputData(lattice(6));
+    filter->Update();
+    auto* table =
+      vtkUnsignedCharArray::SafeDownCast(vtkPolyData::SafeDownCast(filter->GetOutput())
+                                           ->GetFieldData()
+                                           ->GetAbstractArray("AmbientOcclusionTextures"));
+    tables.emplace_back(reinterpret_cast<const char*>(table->GetPointer(0)),
+      static_cast<std::size_t>(table->GetNumberOfValues()));
+    threads = filter->GetNumberOfThreads();
+  }
+  EXPECT_TRUE(tables[0] == tables[1]);
+  EXPECT_TRUE(tables[0] == tables[2]);
+  if (std::thread::hardware_concurrency() > 1)
+  {
+    EXPECT_GT(threads, 1);
+  }
+}
+
+TEST(SphereAmbientOcclusion, LeavesOutBadParticlesWithOneWarning)
+{
+  auto data = lattice(3);
+  radiiOf(data)->SetValue(0, NaN);
+  radiiOf(data)->SetValue(1, -1);
+  radiiOf(data)->SetValue(2, Infinity);
+  radiiOf(data)->SetValue(3, 0);
+  data->GetPoints()->SetPoint(4, NaN, 0, 0);
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetInputData(data);
+  WarningCatcher warnings(filter);
+  EXPECT_EQ(errorOf(filter), "");
+  EXPECT_EQ(warnings.Count(), 1);
+  EXPECT_NE(warnings.Text().find("5 particles are left out"), std::string::npos) << warnings.Text();
+  EXPECT_EQ(filter->GetNumberOfParticlesLeftOut(), 5);
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
+  ASSERT_EQ(output->GetNumberOfPoints(), 27);
+  vtkPointData* arrays = output->GetPointData();
+  EXPECT_EQ(arrays->GetArray("AmbientOcclusionTexture")->GetComponent(0, 0), -1);
+  EXPECT_EQ(arrays->GetArray("AmbientOcclusion")->GetComponent(4, 0), 0);
+  EXPECT_GE(arrays->GetArray("AmbientOcclusionTexture")->GetComponent(5, 0), 0);
+}
+
+struct BadInput
+{
+  const char* Name;
+  void (*Spoil)(vtkSphereAmbientOcclusion*, vtkPolyData*);
+  const char* Says;
+};
+
+void PrintTo(const BadInput& bad, std::ostream* os)
+{
+  *os << bad.Name;
+}
+
+class SphereAmbientOcclusionErrors : public testing::TestWithParam<BadInput>
+{
+};
+
+TEST_P(SphereAmbientOcclusionErrors, NamesWhatIsWrong)
+{
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  const auto data = lattice(2);
+  filter->SetInputData(data);
+  GetParam().Spoil(filter, data);
+  const std::string error = errorOf(filter);
+  EXPECT_NE(error.find(GetParam().Says), std::string::npos) << "the message was: " << error;
+  EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutput())->GetNumberOfPoints(), 0);
+}
+
+const BadInput BadInputs[] = {
+  { "NoPoints", [](auto*, vtkPolyData* d) { d->Initialize(); }, "no points" },
+  { "MissingArray", [](auto* f, vtkPolyData*) { f->SetRadiusArray("size"); }, "'size'" },
+  { "WrongSize",
+    [](auto* f, vtkPolyData* d)
+    {
+      radiiOf(d)->SetNumberOfTuples(3);
+      f->SetRadiusArray("radius");
+    },
+    "3 values for 8 points" },
+  { "Vector",
+    [](auto* f, vtkPolyData* d)
+    {
+      vtkNew<vtkFloatArray> v;
+      v->SetName("v");
+      v->SetNumberOfComponents(3);
+      v->SetNumberOfTuples(8);
+      d->GetPointData()->AddArray(v);
+      f->SetRadiusArray("v");
+    },
+    "3 components" },
+  { "AllInvalid", [](auto*, vtkPolyData* d) { radiiOf(d)->Fill(-1); }, "No particle is usable" },
+  { "ResolutionZero", [](auto* f, vtkPolyData*) { f->SetTextureResolution(0); },
+    "TextureResolution must be between 1 and 64" },
+  { "ResolutionHuge", [](auto* f, vtkPolyData*) { f->SetTextureResolution(65); },
+    "TextureResolution must be between 1 and 64" },
+  { "SamplesZero", [](auto* f, vtkPolyData*) { f->SetSamplesPerTexel(0); },
+    "SamplesPerTexel must be between" },
+  { "SamplesHuge", [](auto* f, vtkPolyData*) { f->SetSamplesPerTexel(2000000); },
+    "SamplesPerTexel must be between" },
+  { "NegativeDistance", [](auto* f, vtkPolyData*) { f->SetMaximumDistance(-1); },
+    "MaximumDistance" },
+  { "NaNDistance", [](auto* f, vtkPolyData*) { f->SetMaximumDistance(NaN); }, "MaximumDistance" },
+  { "TargetErrorOne", [](auto* f, vtkPolyData*) { f->SetTargetError(1.5); }, "TargetError" },
+  { "Threshold", [](auto* f, vtkPolyData*) { f->SetInsideThreshold(-0.1); }, "InsideThreshold" },
+  { "Scale", [](auto* f, vtkPolyData*) { f->SetRadiusScale(0); }, "RadiusScale" },
+  { "ConstantRadius", [](auto* f, vtkPolyData*) { f->SetConstantRadius(-2); }, "ConstantRadius" },
+  { "Seed", [](auto* f, vtkPolyData*) { f->SetSeed(-1); }, "Seed" },
+  { "Encoding", [](auto* f, vtkPolyData*) { f->SetEncoding(7); }, "Encoding" },
+  { "MethodMissing", [](auto* f, vtkPolyData*) { f->SetMethod(vtkSphereAmbientOcclusion::Sweep); },
+    "Method Sweep is not in this version" },
+  { "NoBackgroundFile",
+    [](auto* f, vtkPolyData*) { f->SetBackground(vtkSphereAmbientOcclusion::Image); },
+    "BackgroundImage is empty" },
+  { "UnreadableBackground",
+    [](auto* f, vtkPolyData*)
+    {
+      f->SetBackground(vtkSphereAmbientOcclusion::Image);
+      f->SetBackgroundImage("no-such-file.exr");
+    },
+    "no-such-file.exr" },
+  { "ZeroUp",
+    [](auto* f, vtkPolyData*)
+    {
+      f->SetBackground(vtkSphereAmbientOcclusion::Gradient);
+      f->SetBackgroundUp(0, 0, 0);
+    },
+    "BackgroundUp" },
+};
+
+INSTANTIATE_TEST_SUITE_P(All, SphereAmbientOcclusionErrors, testing::ValuesIn(BadInputs),
+  [](const auto& info) { return info.param.Name; });
+
+TEST(SphereAmbientOcclusion, RefusesWhatDoesNotFitIntoMemory)
+{
+  // 64 x 64 texels of 8 bytes each for 20 million particles: more than 600 GiB.
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(20000000);
+  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  {
+    points->SetPoint(i, static_cast<double>(i), 0, 0);
+  }
+  data->SetPoints(points);
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetInputData(data);
+  filter->SetConstantRadius(0.5);
+  filter->SetTextureResolution(64);
+  filter->SetEncoding(vtkSphereAmbientOcclusion::Float32Linear);
+  const std::string error = errorOf(filter);
+  EXPECT_NE(error.find("GiB of memory"), std::string::npos) << error;
+  EXPECT_NE(error.find("TextureResolution"), std::string::npos) << error;
+}
+
+TEST(SphereAmbientOcclusion, AbortsWithinASecondAndLeavesNoHalfBake)
+{
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetInputData(lattice(12));
+  filter->SetTextureResolution(64);
+  filter->SetSamplesPerTexel(1000);
+  const auto start = std::chrono::steady_clock::now();
+  struct State
+  {
+    double Progress = 0;
+    int Calls = 0;
+  } state;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&state);
+  command->SetCallback(
+    [](vtkObject* caller, unsigned long, void* client, void*)
+    {
+      auto* seen = static_cast<State*>(client);
+      auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
+      EXPECT_GE(algorithm->GetProgress(), seen->Progress);
+      seen->Progress = algorithm->GetProgress();
+      if (++seen->Calls == 4)
+      {
+        algorithm->SetAbortExecute(1);
+      }
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, command);
+  EXPECT_EQ(errorOf(filter), "");
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  EXPECT_GE(state.Calls, 4);
+  EXPECT_LT(seconds.count(), 1.5);
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
+  EXPECT_FALSE(output->GetPointData()->HasArray("AmbientOcclusion"));
+  EXPECT_FALSE(output->GetFieldData()->HasArray("AmbientOcclusionTextures"));
+}
+
+TEST(SphereAmbientOcclusion, RadiiComeFromWhereTheUserSays)
+{
+  const auto meanOf = [](vtkPolyData* data, const char* array, double constant)
+  {
+    vtkNew<vtkSphereAmbientOcclusion> filter;
+    filter->SetInputData(data);
+    filter->SetRadiusArray(array);
+    filter->SetConstantRadius(constant);
+    filter->SetTextureResolution(4);
+    EXPECT_EQ(errorOf(filter), "");
+    return vtkPolyData::SafeDownCast(filter->GetOutput())
+      ->GetPointData()
+      ->GetArray("AmbientOcclusion")
+      ->GetComponent(0, 0);
+  };
+  const double expected = meanOf(lattice(3), "radius", 0);
+  EXPECT_EQ(meanOf(lattice(3), "", 0), expected);
+  EXPECT_EQ(meanOf(lattice(3), "(automatic)", 0), expected);
+  EXPECT_EQ(meanOf(lattice(3), "(none)", 0.5), expected);
+  EXPECT_EQ(meanOf(lattice(3, "charge"), "", 0), expected); // estimated from the spacing: 1/2
+  EXPECT_GT(meanOf(lattice(3), "(none)", 0.2), expected);
+}
+
+TEST(SphereAmbientOcclusion, BlocksOccludeEachOther)
+{
+  // The same six layers as one data set and as two blocks: the same values at the same places.
+  const auto whole = lattice(4);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (int half = 0; half < 2; ++half)
+  {
+    vtkNew<vtkPolyData> block;
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkDoubleArray> radii;
+    radii->SetName("radius");
+    for (vtkIdType i = 32 * half; i < 32 * (half + 1); ++i)
+    {
+      points->InsertNextPoint(whole->GetPoint(i));
+      radii->InsertNextValue(0.5);
+    }
+    block->SetPoints(points);
+    block->GetPointData()->AddArray(radii);
+    blocks->SetBlock(static_cast<unsigned>(half), block);
+  }
+  vtkNew<vtkSphereAmbientOcclusion> one;
+  one->SetInputData(whole);
+  one->Update();
+  vtkNew<vtkSphereAmbientOcclusion> two;
+  two->SetInputData(blocks);
+  two->Update();
+  auto* all = vtkPolyData::SafeDownCast(one->GetOutput());
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(two->GetOutputDataObject(0));
+  ASSERT_TRUE(output);
+  auto* table = vtkUnsignedCharArray::SafeDownCast(
+    all->GetFieldData()->GetAbstractArray("AmbientOcclusionTextures"));
+  for (int half = 0; half < 2; ++half)
+  {
+    auto* block = vtkPolyData::SafeDownCast(output->GetBlock(static_cast<unsigned>(half)));
+    ASSERT_TRUE(block);
+    auto* blockTable = vtkUnsignedCharArray::SafeDownCast(
+      block->GetFieldData()->GetAbstractArray("AmbientOcclusionTextures"));
+    ASSERT_TRUE(blockTable);
+    for (vtkIdType i = 0; i < 32; ++i)
+    {
+      const auto row = [](vtkPolyData* data, vtkIdType point)
+      {
+        return static_cast<vtkIdType>(
+          data->GetPointData()->GetArray("AmbientOcclusionTexture")->GetComponent(point, 0));
+      };
+      const vtkIdType there = row(all, i + 32 * half);
+      const vtkIdType here = row(block, i);
+      ASSERT_LT(here, blockTable->GetNumberOfTuples());
+      EXPECT_EQ(
+        std::memcmp(table->GetPointer(256 * there), blockTable->GetPointer(256 * here), 256), 0);
+    }
+    EXPECT_FALSE(vtkPolyData::SafeDownCast(blocks->GetBlock(static_cast<unsigned>(half)))
+                   ->GetPointData()
+                   ->HasArray("AmbientOcclusion"));
+  }
+}
+
+TEST(SphereAmbientOcclusion, ATargetErrorChoosesTheSamples)
+{
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetInputData(lattice(5));
+  filter->SetTextureResolution(4);
+  filter->SetTargetError(0.01);
+  EXPECT_EQ(errorOf(filter), "");
+  EXPECT_GT(filter->GetNumberOfSamplesUsed(), 49);
+  EXPECT_LE(filter->GetEstimatedError(), 0.01);
+  EXPECT_GT(filter->GetEstimatedError(), 0);
+}
+}
