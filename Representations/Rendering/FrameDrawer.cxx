@@ -81,10 +81,8 @@ void FrameDrawer::draw(vtkOpenGLRenderWindow* window, const PixelRectangle& view
 
   colors_->Activate();
   depths_->Activate();
-  const int origin[2] = { viewport.x, viewport.y };
   quad_->Program->SetUniformi("colors", colors_->GetTextureUnit());
   quad_->Program->SetUniformi("depths", depths_->GetTextureUnit());
-  quad_->Program->SetUniform2i("origin", origin);
   quad_->Render();
   depths_->Deactivate();
   colors_->Deactivate();

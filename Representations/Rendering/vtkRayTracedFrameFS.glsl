@@ -7,18 +7,16 @@
 
 uniform sampler2D colors;
 uniform sampler2D depths;
-uniform ivec2 origin; // of the viewport in the frame buffer
 
-in vec2 texCoord;
+in vec2 texCoord; // of the viewport: its pixels' centres are the texels' centres
 
 void main()
 {
-  ivec2 pixel = ivec2(gl_FragCoord.xy) - origin;
-  float depth = texelFetch(depths, pixel, 0).r;
+  float depth = texture(depths, texCoord).r;
   if (depth > 1.0)
   {
     discard;
   }
   gl_FragDepth = depth;
-  gl_FragData[0] = texelFetch(colors, pixel, 0);
+  gl_FragData[0] = texture(colors, texCoord);
 }
