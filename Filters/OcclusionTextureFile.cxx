@@ -18,6 +18,7 @@
 #include <ImfTiledOutputPart.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -60,20 +61,13 @@ struct Grid
   int Rows;
 };
 
-Imf::Header PartHeader(const char* name, const std::string& type, int width, int height)
-{
-  Imf::Header header(width, height);
-  header.setName(name);
-  header.setType(type);
-  return header;
-}
-
 Imf::Header TexturesHeader(const OcclusionTextureSource& source)
 {
   const Grid grid(source.TextureCount);
   const int side = source.Resolution;
-  Imf::Header header =
-    PartHeader(TexturesPart, Imf::TILEDIMAGE, grid.Columns * side, grid.Rows * side);
+  Imf::Header header(grid.Columns * side, grid.Rows * side);
+  header.setName(TexturesPart);
+  header.setType(Imf::TILEDIMAGE);
   header.compression() = TextureCompression;
   header.channels().insert(TexelChannel, Imf::Channel(Imf::FLOAT));
   header.setTileDescription(Imf::TileDescription(side, side, Imf::ONE_LEVEL));
@@ -86,10 +80,14 @@ Imf::Header TexturesHeader(const OcclusionTextureSource& source)
   return header;
 }
 
-Imf::Header ParticlesHeader(const OcclusionTextureSource& source)
+// All parts of a file must have the same display window: that of the atlas.
+Imf::Header ParticlesHeader(const OcclusionTextureSource& source, const Imf::Header& textures)
 {
   const Grid grid(source.ParticleCount);
-  Imf::Header header = PartHeader(ParticlesPart, Imf::SCANLINEIMAGE, grid.Columns, grid.Rows);
+  const IMATH_NAMESPACE::Box2i window(V2i(0), V2i(grid.Columns - 1, grid.Rows - 1));
+  Imf::Header header(textures.displayWindow(), window);
+  header.setName(ParticlesPart);
+  header.setType(Imf::SCANLINEIMAGE);
   header.compression() = ParticleCompression;
   header.channels().insert(RowChannel, Imf::Channel(Imf::UINT));
   header.channels().insert(MeanChannel, Imf::Channel(Imf::FLOAT));
@@ -182,7 +180,8 @@ void WriteOcclusionTextures(const std::string& fileName, const OcclusionTextureS
   WriteExrFile(fileName,
     [&](Imf::OStream& stream)
     {
-      const std::vector<Imf::Header> headers = { TexturesHeader(source), ParticlesHeader(source) };
+      const Imf::Header textures = TexturesHeader(source);
+      const std::array<Imf::Header, 2> headers = { textures, ParticlesHeader(source, textures) };
       Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
       WriteTextures(file, source);
       WriteParticles(file, source);

@@ -119,6 +119,7 @@ TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, 
     texelIndex(plan.resolution, row, column));
   randomPermutation(random, work.pairing);
 
+  const TexelPatch patch(plan.resolution, row, column);
   const int samples = plan.strata.size();
   int outside = 0;
   double light = 0;
@@ -128,7 +129,7 @@ TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, 
     const Point2 heading =
       plan.strata.point(static_cast<int>(work.pairing[static_cast<std::size_t>(k)]),
         random.uniform(), random.uniform());
-    const Vec3d normal = texelPoint(plan.resolution, row, column, place.x, place.y);
+    const Vec3d normal = patch.point(place.x, place.y);
     if (insideAny(work.cuttingCaps, normal))
     {
       continue;

@@ -29,12 +29,18 @@ Vec3d textureDirection(TextureCoordinate c)
   return { s * std::cos(azimuth), s * std::sin(azimuth), std::cos(polar) };
 }
 
-Vec3d texelPoint(int resolution, int row, int column, double s, double t)
+TexelPatch::TexelPatch(int resolution, int row, int column)
+  : top_(std::cos(Pi * row / resolution))
+  , height_(std::cos(Pi * (row + 1) / resolution) - top_)
+  , azimuth_(2 * Pi * column / resolution)
+  , azimuthWidth_(2 * Pi / resolution)
 {
-  const double top = std::cos(Pi * row / resolution);
-  const double bottom = std::cos(Pi * (row + 1) / resolution);
-  const double z = top + t * (bottom - top);
-  const double azimuth = 2 * Pi * (column + s) / resolution;
+}
+
+Vec3d TexelPatch::point(double s, double t) const
+{
+  const double z = top_ + t * height_;
+  const double azimuth = azimuth_ + s * azimuthWidth_;
   const double radius = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
   return { radius * std::cos(azimuth), radius * std::sin(azimuth), z };
 }

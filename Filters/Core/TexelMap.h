@@ -32,11 +32,29 @@ struct TextureCoordinate
 /// Unit vector of a texture coordinate: the inverse of textureCoordinate.
 [[nodiscard]] Vec3d textureDirection(TextureCoordinate coordinate);
 
-/// Point of texel (row, column) that maps the unit square to the texel with uniform area.
-///
-/// cos(theta) is linear in the area (Archimedes), so z is interpolated, not theta.
-/// @param s, t in [0, 1]: along the azimuth, along the polar angle
-[[nodiscard]] Vec3d texelPoint(int resolution, int row, int column, double s, double t);
+/// One texel's piece of the unit sphere.
+class TexelPatch
+{
+public:
+  TexelPatch(int resolution, int row, int column);
+
+  /// Maps the unit square to the texel with uniform area: cos(theta) is linear in the area
+  /// (Archimedes), so z is interpolated, not theta.
+  /// @param s, t in [0, 1]: along the azimuth, along the polar angle
+  [[nodiscard]] Vec3d point(double s, double t) const;
+
+private:
+  double top_;          ///< z of the upper edge
+  double height_;       ///< z of the lower edge minus that of the upper: negative
+  double azimuth_;      ///< of the left edge, radians
+  double azimuthWidth_; ///< radians
+};
+
+/// A single point of texel (row, column): see TexelPatch::point.
+[[nodiscard]] inline Vec3d texelPoint(int resolution, int row, int column, double s, double t)
+{
+  return TexelPatch(resolution, row, column).point(s, t);
+}
 
 /// Area of a texel of row j on the unit sphere, in steradians; the T x T areas add up to 4 pi.
 [[nodiscard]] double texelArea(int resolution, int row);

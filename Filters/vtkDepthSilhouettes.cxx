@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDepthSilhouettes.h"
+
+#include "DepthLaplacian.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <cmath>
+#include <vector>
+
+vtkStandardNewMacro(vtkDepthSilhouettes);
+
+namespace
+{
+
+const char* const SilhouetteName = "Silhouette";
+
+bool IsDepth(vtkDataArray* array)
+{
+  return array && array->GetNumberOfComponents() == 1 &&
+    (vtkFloatArray::SafeDownCast(array) || vtkDoubleArray::SafeDownCast(array));
+}
+
+vtkIdType PixelsOfSlice(const int extent[6])
+{
+  return static_cast<vtkIdType>(extent[1] - extent[0] + 1) * (extent[3] - extent[2] + 1);
+}
+
+/// The slice `k` (from 0) of an array that fills `extent`.
+template <typename T>
+po::DepthImage<T> Slice(const T* depth, const int extent[6], int k)
+{
+  return { depth + k * PixelsOfSlice(extent), extent[1] - extent[0] + 1,
+    extent[3] - extent[2] + 1 };
+}
+
+/// Calls `work` with the array's values as const float* or const double*.
+template <typename Work>
+void WithValues(vtkDataArray* depth, Work work)
+{
+  if (auto* floats = vtkFloatArray::SafeDownCast(depth))
+  {
+    work(static_cast<const float*>(floats->GetPointer(0)));
+  }
+  else if (auto* doubles = vtkDoubleArray::SafeDownCast(depth))
+  {
+    work(static_cast<const double*>(doubles->GetPointer(0)));
+  }
+}
+
+} // namespace
+
+struct vtkDepthSilhouettes::Internals
+{
+  vtkDataArray* Depth = nullptr;
+  /// One a slice, resolved before the threads start.
+  std::vector<po::EdgeRule> Rules;
+};
+
+vtkDepthSilhouettes::vtkDepthSilhouettes()
+  : Internal(std::make_unique<Internals>())
+{
+  // VTK's multi-threader is parallel in every build; vtkSMPTools may have a sequential backend.
+  this->EnableSMP = false;
+}
+
+vtkDepthSilhouettes::~vtkDepthSilhouettes() = default;
+
+bool vtkDepthSilhouettes::CheckParameters()
+{
+  if (!(this->Threshold >= 0.0) || !std::isfinite(this->Threshold))
+  {
+    vtkErrorMacro("Threshold is " << this->Threshold
+                                  << "; it must be a length >= 0 in world units (0: automatic).");
+    return false;
+  }
+  if (!(this->BackgroundDepth >= 0.0) || !std::isfinite(this->BackgroundDepth))
+  {
+    vtkErrorMacro("BackgroundDepth is "
+      << this->BackgroundDepth << "; it must be a depth >= 0 in world units (0: automatic).");
+    return false;
+  }
+  return true;
+}
+
+vtkDataArray* vtkDepthSilhouettes::FindDepth(
+  vtkImageData* input, vtkInformationVector** inputVector)
+{
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
+  vtkInformation* choice = this->GetInputArrayInformation(0);
+  const char* chosen =
+    choice->Has(vtkDataObject::FIELD_NAME()) ? choice->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+  if (!chosen && !IsDepth(array))
+  {
+    for (const char* name : { "Z", "depth" })
+    {
+      array = IsDepth(array) ? array : input->GetPointData()->GetArray(name);
+    }
+    association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  }
+  if (IsDepth(array) && association == vtkDataObject::FIELD_ASSOCIATION_POINTS)
+  {
+    return array;
+  }
+  const char* name = chosen ? chosen : (array && array->GetName() ? array->GetName() : "");
+  if (!array)
+  {
+    vtkErrorMacro("There is no depth array"
+      << (chosen ? std::string(" named ") + chosen : std::string())
+      << " on the image's points. Choose a one-component float or double point array, or name it "
+         "Z or depth.");
+    return nullptr;
+  }
+  vtkErrorMacro("Array " << name << " (" << array->GetNumberOfComponents() << " components of type "
+                         << array->GetDataTypeAsString()
+                         << ") is no depth. Choose a one-component float or double point array.");
+  return nullptr;
+}
+
+int vtkDepthSilhouettes::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkDataObject::SetPointDataActiveScalarInfo(outputVector->GetInformationObject(0), VTK_FLOAT, 1);
+  return 1;
+}
+
+int vtkDepthSilhouettes::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector*)
+{
+  // The farthest depth is a matter of the whole image.
+  vtkInformation* info = inputVector[0]->GetInformationObject(0);
+  int extent[6];
+  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  info->Set(vtkStreamingDemandDrivenPipeline::UPDATE_EXTENT(), extent, 6);
+  return 1;
+}
+
+void vtkDepthSilhouettes::PrepareImageData(vtkInformationVector** inputVector,
+  vtkInformationVector* outputVector, vtkImageData*** inDataObjects, vtkImageData** outDataObjects)
+{
+  vtkImageData* input = vtkImageData::GetData(inputVector[0]);
+  vtkImageData* output = vtkImageData::GetData(outputVector);
+  output->ShallowCopy(input);
+
+  vtkNew<vtkFloatArray> silhouette;
+  silhouette->SetName(SilhouetteName);
+  silhouette->SetNumberOfTuples(input->GetNumberOfPoints());
+  output->GetPointData()->AddArray(silhouette); // SetScalars would drop the input's scalars
+  output->GetPointData()->SetActiveScalars(SilhouetteName);
+
+  inDataObjects[0][0] = input;
+  outDataObjects[0] = output;
+}
+
+int vtkDepthSilhouettes::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkImageData* input = vtkImageData::GetData(inputVector[0]);
+  vtkDataArray* depth = this->CheckParameters() ? this->FindDepth(input, inputVector) : nullptr;
+  if (!depth)
+  {
+    return 0;
+  }
+
+  int extent[6];
+  input->GetExtent(extent);
+  const po::SilhouetteParameters parameters{ this->Threshold, this->BackgroundDepth };
+  this->Internal->Depth = depth;
+  this->Internal->Rules.clear();
+  WithValues(depth,
+    [&](const auto* values)
+    {
+      for (int k = 0; k <= extent[5] - extent[4]; ++k)
+      {
+        const auto farthest = po::FarthestDepth(Slice(values, extent, k));
+        this->Internal->Rules.push_back(po::ResolveEdgeRule(parameters, farthest));
+      }
+    });
+
+  const int done = this->Superclass::RequestData(request, inputVector, outputVector);
+  this->Internal->Depth = nullptr;
+  return done;
+}
+
+void vtkDepthSilhouettes::ThreadedRequestData(vtkInformation*, vtkInformationVector**,
+  vtkInformationVector*, vtkImageData***, vtkImageData** outData, int piece[6], int)
+{
+  int extent[6];
+  outData[0]->GetExtent(extent);
+  auto* silhouette = vtkFloatArray::SafeDownCast(outData[0]->GetPointData()->GetScalars());
+  const po::PixelBlock block{ piece[0] - extent[0], piece[1] - extent[0] + 1, piece[2] - extent[2],
+    piece[3] - extent[2] + 1 };
+  WithValues(this->Internal->Depth,
+    [&](const auto* values)
+    {
+      for (int k = piece[4] - extent[4]; k <= piece[5] - extent[4]; ++k)
+      {
+        po::MarkSilhouettes(Slice(values, extent, k), this->Internal->Rules[k], block,
+          silhouette->GetPointer(k * PixelsOfSlice(extent)));
+      }
+    });
+}
+
+void vtkDepthSilhouettes::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Threshold: " << this->Threshold << "\n";
+  os << indent << "BackgroundDepth: " << this->BackgroundDepth << "\n";
+}

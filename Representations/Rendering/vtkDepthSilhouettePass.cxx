@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtkDepthSilhouettePass.h"
+
+#include "SilhouettePainter.h"
+
+#include "vtkCamera.h"
+#include "vtkHomogeneousTransform.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLFramebufferObject.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkRenderState.h"
+#include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
+#include "vtkTransform.h"
+
+#include <cmath>
+#include <optional>
+
+vtkStandardNewMacro(vtkDepthSilhouettePass);
+
+namespace
+{
+
+/// Where the renderer draws in the frame buffer that is bound.
+SilhouetteViewport ViewportOf(const vtkRenderState* state)
+{
+  SilhouetteViewport viewport{};
+  if (auto* frame = vtkOpenGLFramebufferObject::SafeDownCast(state->GetFrameBuffer()))
+  {
+    frame->GetLastSize(viewport.Width, viewport.Height);
+  }
+  else
+  {
+    state->GetRenderer()->GetTiledSizeAndOrigin(
+      &viewport.Width, &viewport.Height, &viewport.X, &viewport.Y);
+  }
+  return viewport;
+}
+
+/// The projection that the mappers draw with; nothing if it is singular.
+std::optional<po::WindowToEye> WindowToEyeOf(vtkRenderer* renderer)
+{
+  vtkMatrix4x4* projection = renderer->GetActiveCamera()->GetProjectionTransformMatrix(
+    renderer->GetTiledAspectRatio(), -1.0, 1.0);
+  const double determinant = projection->Determinant();
+  if (!std::isfinite(determinant) || determinant == 0.0)
+  {
+    return std::nullopt;
+  }
+  po::Matrix4 inverse;
+  vtkMatrix4x4::Invert(projection->GetData(), inverse.data());
+  return po::MakeWindowToEye(inverse);
+}
+
+vtkOpenGLRenderWindow* WindowOf(const vtkRenderState* state)
+{
+  return vtkOpenGLRenderWindow::SafeDownCast(state->GetRenderer()->GetRenderWindow());
+}
+
+/// Not with an empty viewport or a degenerate camera.
+bool CanBeSeen(const vtkRenderState* state)
+{
+  const SilhouetteViewport viewport = ViewportOf(state);
+  return viewport.Width > 0 && viewport.Height > 0 && WindowToEyeOf(state->GetRenderer());
+}
+
+/// The window shows one tile of a larger picture.
+bool IsTile(const vtkRenderState* state)
+{
+  const int* scale = WindowOf(state)->GetTileScale();
+  return scale[0] > 1 || scale[1] > 1;
+}
+
+/// Pixels around a tile that the Laplacian of the tile's pixels needs.
+constexpr int TileMargin = 1;
+
+} // namespace
+
+struct vtkDepthSilhouettePass::Internals
+{
+  SilhouettePainter Painter;
+};
+
+vtkDepthSilhouettePass::vtkDepthSilhouettePass()
+  : Internal(std::make_unique<Internals>())
+{
+}
+
+vtkDepthSilhouettePass::~vtkDepthSilhouettePass() = default;
+
+bool vtkDepthSilhouettePass::CheckParameters()
+{
+  if (!(this->Threshold >= 0.0) || !std::isfinite(this->Threshold))
+  {
+    vtkErrorMacro("Threshold is " << this->Threshold
+                                  << "; it must be a length >= 0 in world units (0: automatic).");
+    return false;
+  }
+  if (!(this->BackgroundDepth >= 0.0) || !std::isfinite(this->BackgroundDepth))
+  {
+    vtkErrorMacro("BackgroundDepth is "
+      << this->BackgroundDepth << "; it must be a depth >= 0 in world units (0: automatic).");
+    return false;
+  }
+  return true;
+}
+
+void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
+{
+  this->NumberOfRenderedProps = 0;
+  if (!this->DelegatePass)
+  {
+    vtkWarningMacro("There is no delegate pass: nothing is drawn.");
+    return;
+  }
+  // While a selection is made, colours are identifiers and must stay untouched.
+  const bool selecting = state->GetRenderer()->GetSelector() != nullptr;
+  const bool lines =
+    this->LineVisibility && !selecting && this->CheckParameters() && CanBeSeen(state);
+  const bool tile = lines && IsTile(state);
+
+  std::string error = tile ? this->ReadDepthAroundTile(state) : std::string();
+  this->DelegatePass->Render(state);
+  this->NumberOfRenderedProps += this->DelegatePass->GetNumberOfRenderedProps();
+  if (lines && !tile)
+  {
+    error = this->ReadDepth(state);
+  }
+  if (!error.empty())
+  {
+    vtkErrorMacro(<< error << " No silhouettes are drawn.");
+  }
+  else if (lines)
+  {
+    this->DrawLines(state, tile ? TileMargin : 0);
+  }
+}
+
+std::string vtkDepthSilhouettePass::ReadDepth(const vtkRenderState* state)
+{
+  return this->Internal->Painter.ReadDepth(
+    WindowOf(state), ViewportOf(state), *WindowToEyeOf(state->GetRenderer()), true);
+}
+
+std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* state)
+{
+  vtkRenderer* renderer = state->GetRenderer();
+  vtkOpenGLRenderWindow* window = WindowOf(state);
+  const SilhouetteViewport tile = ViewportOf(state);
+  const SilhouetteViewport around{ 0, 0, tile.Width + 2 * TileMargin,
+    tile.Height + 2 * TileMargin };
+
+  window->GetState()->PushFramebufferBindings();
+  vtkNew<vtkOpenGLFramebufferObject> frame;
+  frame->SetContext(window);
+  frame->PopulateFramebuffer(
+    around.Width, around.Height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
+
+  // The tile's picture shrinks to the middle of the frame, so that its pixels stay what they are.
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkSmartPointer<vtkHomogeneousTransform> own = camera->GetUserTransform();
+  vtkNew<vtkTransform> shrink;
+  shrink->Scale(static_cast<double>(tile.Width) / around.Width,
+    static_cast<double>(tile.Height) / around.Height, 1.0);
+  if (own)
+  {
+    shrink->Concatenate(own->GetMatrix());
+  }
+  camera->SetUserTransform(shrink);
+
+  vtkRenderState inside(renderer);
+  inside.SetPropArrayAndCount(state->GetPropArray(), state->GetPropArrayCount());
+  inside.SetFrameBuffer(frame);
+  this->DelegatePass->Render(&inside);
+  const std::string error =
+    this->Internal->Painter.ReadDepth(window, around, *WindowToEyeOf(renderer), false);
+
+  camera->SetUserTransform(own);
+  window->GetState()->PopFramebufferBindings();
+  return error;
+}
+
+void vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state, int margin)
+{
+  const SilhouetteStyle style{ { this->Threshold, this->BackgroundDepth },
+    { static_cast<float>(this->Color[0]), static_cast<float>(this->Color[1]),
+      static_cast<float>(this->Color[2]), static_cast<float>(this->Opacity) } };
+  this->Internal->Painter.DrawLines(ViewportOf(state), margin, style);
+}
+
+void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Superclass::ReleaseGraphicsResources(window);
+  this->Internal->Painter.ReleaseGraphicsResources();
+}
+
+void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Threshold: " << this->Threshold << "\n";
+  os << indent << "BackgroundDepth: " << this->BackgroundDepth << "\n";
+  os << indent << "LineVisibility: " << this->LineVisibility << "\n";
+  os << indent << "Color: " << this->Color[0] << ", " << this->Color[1] << ", " << this->Color[2]
+     << "\n";
+  os << indent << "Opacity: " << this->Opacity << "\n";
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef ExrTestSupport_h
+#define ExrTestSupport_h
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+#ifndef _WIN32
+#include <csignal>
+#include <sys/resource.h>
+#endif
+
+/// A folder of its own for a test; removed afterwards.
+class TemporaryFolder
+{
+public:
+  TemporaryFolder()
+    : Path(std::filesystem::temp_directory_path() /
+        ("ParticleOcclusion-" + std::to_string(std::random_device()())))
+  {
+    std::filesystem::create_directory(this->Path);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(this->Path); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string File(const std::string& name) const { return (this->Path / name).string(); }
+  std::size_t Count() const
+  {
+    return std::distance(std::filesystem::directory_iterator(this->Path), {});
+  }
+
+private:
+  std::filesystem::path Path;
+};
+
+using Bytes = std::vector<char>;
+
+inline Bytes ReadBytes(const std::string& fileName)
+{
+  std::ifstream stream(fileName, std::ios::binary);
+  return Bytes(std::istreambuf_iterator<char>(stream), {});
+}
+
+inline void WriteBytes(const std::string& fileName, const Bytes& bytes)
+{
+  std::ofstream(fileName, std::ios::binary).write(bytes.data(), bytes.size());
+}
+
+/// Collects the errors and warnings of an object instead of printing them.
+class Messages
+{
+public:
+  explicit Messages(vtkObject* object)
+  {
+    this->Error->SetClientData(&this->Errors);
+    this->Error->SetCallback(Messages::Keep);
+    this->Warning->SetClientData(&this->Warnings);
+    this->Warning->SetCallback(Messages::Keep);
+    object->AddObserver(vtkCommand::ErrorEvent, this->Error);
+    object->AddObserver(vtkCommand::WarningEvent, this->Warning);
+  }
+
+  std::vector<std::string> Errors;
+  std::vector<std::string> Warnings;
+
+private:
+  static void Keep(vtkObject*, unsigned long, void* list, void* text)
+  {
+    static_cast<std::vector<std::string>*>(list)->push_back(static_cast<const char*>(text));
+  }
+  vtkNew<vtkCallbackCommand> Error;
+  vtkNew<vtkCallbackCommand> Warning;
+};
+
+inline ::testing::AssertionResult OneMessage(
+  const std::vector<std::string>& messages, const std::string& part)
+{
+  if (messages.size() == 1 && messages[0].find(part) != std::string::npos)
+  {
+    return ::testing::AssertionSuccess();
+  }
+  auto failure = ::testing::AssertionFailure()
+    << "expected one message with \"" << part << "\", got " << messages.size();
+  for (const std::string& message : messages)
+  {
+    failure << '\n' << message;
+  }
+  return failure;
+}
+
+/// What `act` throws, or an empty string.
+template <typename Act>
+std::string WhatIsThrown(const Act& act)
+{
+  try
+  {
+    act();
+  }
+  catch (const std::exception& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
+#define EXPECT_HAS(text, part) EXPECT_PRED_FORMAT2(Has, text, part)
+
+inline ::testing::AssertionResult Has(
+  const char*, const char*, const std::string& text, const std::string& part)
+{
+  if (text.find(part) != std::string::npos)
+  {
+    return ::testing::AssertionSuccess();
+  }
+  return ::testing::AssertionFailure() << "\"" << text << "\" lacks \"" << part << "\"";
+}
+
+/// Damaged copies of a file: truncated at `count` lengths, and with 1 to 8 bytes changed at `count`
+/// random places, half of them in the first kilobyte, where the header is.
+template <typename Try>
+void ForEachDamage(const Bytes& whole, int count, const Try& attempt)
+{
+  std::mt19937 random(20260101);
+  const auto below = [&](std::size_t limit)
+  { return std::uniform_int_distribution<std::size_t>(0, limit - 1)(random); };
+  for (int i = 0; i < count; ++i)
+  {
+    attempt(Bytes(whole.begin(), whole.begin() + whole.size() * i / count));
+    Bytes changed = whole;
+    const std::size_t changes = 1 + below(8);
+    const std::size_t range = i % 2 ? whole.size() : std::min<std::size_t>(1024, whole.size());
+    for (std::size_t change = 0; change < changes; ++change)
+    {
+      changed[below(range)] = static_cast<char>(below(256));
+    }
+    attempt(changed);
+  }
+}
+
+#ifndef _WIN32
+/// While alive, no file of this process can grow beyond `bytes`, as on a full disk.
+class FileSizeLimit
+{
+public:
+  explicit FileSizeLimit(rlim_t bytes)
+    : Handler(std::signal(SIGXFSZ, SIG_IGN))
+  {
+    getrlimit(RLIMIT_FSIZE, &this->Before);
+    const rlimit limit = { bytes, this->Before.rlim_max };
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit()
+  {
+    setrlimit(RLIMIT_FSIZE, &this->Before);
+    std::signal(SIGXFSZ, this->Handler);
+  }
+
+private:
+  rlimit Before = {};
+  void (*Handler)(int);
+};
+#endif
+
+#endif

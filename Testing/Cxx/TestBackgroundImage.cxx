@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExrTestSupport.h"
+
+#include "ExrBackground.h"
+
+#include <ImfChannelList.h>
+#include <ImfDeepFrameBuffer.h>
+#include <ImfDeepScanLineOutputFile.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfMultiPartOutputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
+#include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
+#include <ImfTiledOutputFile.h>
+
+#include <half.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+
+namespace Imf = OPENEXR_IMF_NAMESPACE;
+using IMATH_NAMESPACE::Box2i;
+using IMATH_NAMESPACE::V2f;
+using IMATH_NAMESPACE::V2i;
+
+namespace
+{
+
+using Channels = std::map<std::string, std::vector<float>>;
+
+template <typename Pixel>
+struct Converted
+{
+  explicit Converted(const Channels& channels)
+  {
+    for (const auto& [name, values] : channels)
+    {
+      this->Pixels[name].assign(values.begin(), values.end());
+    }
+  }
+  Imf::FrameBuffer Frame(Imf::PixelType type, const Box2i& window) const
+  {
+    Imf::FrameBuffer frame;
+    for (const auto& [name, pixels] : this->Pixels)
+    {
+      frame.insert(name, Imf::Slice::Make(type, pixels.data(), window));
+    }
+    return frame;
+  }
+  std::map<std::string, std::vector<Pixel>> Pixels;
+};
+
+void AddChannels(Imf::Header& header, const Channels& channels, Imf::PixelType type)
+{
+  for (const auto& [name, values] : channels)
+  {
+    header.channels().insert(name, Imf::Channel(type));
+  }
+}
+
+template <typename Pixel>
+void WriteAs(
+  const std::string& fileName, Imf::Header header, const Channels& channels, Imf::PixelType type)
+{
+  AddChannels(header, channels, type);
+  const Converted<Pixel> converted(channels);
+  const Box2i& window = header.dataWindow();
+  if (header.hasTileDescription())
+  {
+    Imf::TiledOutputFile file(fileName.c_str(), header);
+    file.setFrameBuffer(converted.Frame(type, window));
+    file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+    return;
+  }
+  Imf::OutputFile file(fileName.c_str(), header);
+  file.setFrameBuffer(converted.Frame(type, window));
+  file.writePixels(window.max.y - window.min.y + 1);
+}
+
+void WriteFloats(const std::string& fileName, const Imf::Header& header, const Channels& channels)
+{
+  WriteAs<float>(fileName, header, channels, Imf::FLOAT);
+}
+
+// Small integers: exact in every pixel type.
+std::vector<float> Ramp(int count, int step)
+{
+  std::vector<float> values(count);
+  for (int i = 0; i < count; ++i)
+  {
+    values[i] = static_cast<float>((i * step) % 101);
+  }
+  return values;
+}
+
+Channels Rgb(int count)
+{
+  return { { "R", Ramp(count, 1) }, { "G", Ramp(count, 3) }, { "B", Ramp(count, 7) } };
+}
+
+void ExpectLuminance(
+  const po::LatLongImage& image, const Channels& rgb, double red, double green, double blue)
+{
+  const std::size_t count = rgb.at("R").size();
+  ASSERT_EQ(image.Luminance.size(), count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double expected = red * rgb.at("R")[i] + green * rgb.at("G")[i] + blue * rgb.at("B")[i];
+    ASSERT_NEAR(image.Luminance[i], expected, 1e-5 * (1.0 + expected)) << "pixel " << i;
+  }
+}
+
+std::string ErrorOf(const std::string& fileName)
+{
+  return WhatIsThrown([&]() { po::ReadLatLongImage(fileName); });
+}
+
+constexpr int Width = 150;
+constexpr int Height = 75; // more rows than are read at a time
+
+}
+
+TEST(BackgroundImage, RgbOfEveryTypeCompressionAndLayout)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.File("a.exr");
+  const Channels rgb = Rgb(Width * Height);
+  for (int compression = 0; compression < Imf::B44_COMPRESSION; ++compression)
+  {
+    for (bool tiled : { false, true })
+    {
+      SCOPED_TRACE(testing::Message() << "compression " << compression << ", tiled " << tiled);
+      Imf::Header header(Width, Height);
+      header.compression() = static_cast<Imf::Compression>(compression);
+      if (tiled)
+      {
+        header.setTileDescription(Imf::TileDescription(32, 16, Imf::ONE_LEVEL));
+      }
+      WriteAs<float>(file, header, rgb, Imf::FLOAT);
+      ExpectLuminance(po::ReadLatLongImage(file), rgb, 0.2126, 0.7152, 0.0722);
+      WriteAs<half>(file, header, rgb, Imf::HALF);
+      ExpectLuminance(po::ReadLatLongImage(file), rgb, 0.2126, 0.7152, 0.0722);
+      WriteAs<unsigned int>(file, header, rgb, Imf::UINT);
+      ExpectLuminance(po::ReadLatLongImage(file), rgb, 0.2126, 0.7152, 0.0722);
+    }
+  }
+}
+
+TEST(BackgroundImage, FirstRowIsOnTopAndFirstColumnOnTheLeft)
+{
+  TemporaryFolder folder;
+  for (const auto order : { Imf::INCREASING_Y, Imf::DECREASING_Y })
+  {
+    const Box2i window(V2i(-3, 5), V2i(0, 6));
+    Imf::Header header(window, window);
+    header.lineOrder() = order;
+    const std::vector<float> values = { 1, 2, 3, 4, 5, 6, 7, 8 };
+    WriteFloats(folder.File("a.exr"), header, { { "Y", values } });
+    const po::LatLongImage image = po::ReadLatLongImage(folder.File("a.exr"));
+    EXPECT_EQ(image.Width, 4);
+    EXPECT_EQ(image.Height, 2);
+    EXPECT_EQ(image.Luminance, values);
+  }
+}
+
+TEST(BackgroundImage, LuminanceFollowsTheChromaticities)
+{
+  TemporaryFolder folder;
+  const Channels rgb = Rgb(8 * 4);
+  Imf::Header header(8, 4);
+  // ITU-R BT.2020 and its luminance coefficients.
+  Imf::addChromaticities(header,
+    Imf::Chromaticities(
+      V2f(0.708f, 0.292f), V2f(0.170f, 0.797f), V2f(0.131f, 0.046f), V2f(0.3127f, 0.3290f)));
+  WriteFloats(folder.File("a.exr"), header, rgb);
+  const po::LatLongImage image = po::ReadLatLongImage(folder.File("a.exr"));
+  for (std::size_t i = 0; i < image.Luminance.size(); ++i)
+  {
+    const double expected =
+      0.2627 * rgb.at("R")[i] + 0.6780 * rgb.at("G")[i] + 0.0593 * rgb.at("B")[i];
+    EXPECT_NEAR(image.Luminance[i], expected, 2e-4 * (1.0 + expected));
+  }
+}
+
+TEST(BackgroundImage, OneChannelOfAnyNameAndAlphaIsIgnored)
+{
+  TemporaryFolder folder;
+  const Channels channels = { { "sky.light", Ramp(32, 5) }, { "A", Ramp(32, 1) } };
+  WriteFloats(folder.File("a.exr"), Imf::Header(8, 4), channels);
+  EXPECT_EQ(po::ReadLatLongImage(folder.File("a.exr")).Luminance, channels.at("sky.light"));
+}
+
+TEST(BackgroundImage, SecondPartIsFound)
+{
+  TemporaryFolder folder;
+  std::vector<Imf::Header> headers(2, Imf::Header(4, 2));
+  const Channels two = { { "u", Ramp(8, 1) }, { "v", Ramp(8, 2) } };
+  const Channels light = { { "Y", Ramp(8, 3) } };
+  AddChannels(headers[0], two, Imf::FLOAT);
+  AddChannels(headers[1], light, Imf::FLOAT);
+  for (int part = 0; part < 2; ++part)
+  {
+    headers[part].setName(part ? "light" : "motion");
+    headers[part].setType(Imf::SCANLINEIMAGE);
+  }
+  {
+    Imf::MultiPartOutputFile file(folder.File("a.exr").c_str(), headers.data(), 2);
+    for (int number = 0; number < 2; ++number)
+    {
+      const Converted<float> converted(number ? light : two);
+      Imf::OutputPart part(file, number);
+      part.setFrameBuffer(converted.Frame(Imf::FLOAT, headers[number].dataWindow()));
+      part.writePixels(2);
+    }
+  }
+  EXPECT_EQ(po::ReadLatLongImage(folder.File("a.exr")).Luminance, light.at("Y"));
+}
+
+TEST(BackgroundImage, BadPixelsAreCounted)
+{
+  TemporaryFolder folder;
+  std::vector<float> values = Ramp(32, 1);
+  values[3] = -1.0f;
+  values[9] = std::numeric_limits<float>::quiet_NaN();
+  values[31] = std::numeric_limits<float>::infinity();
+  WriteFloats(folder.File("a.exr"), Imf::Header(8, 4), { { "Y", values } });
+  EXPECT_HAS(ErrorOf(folder.File("a.exr")), "3 of 32 pixels");
+  EXPECT_HAS(ErrorOf(folder.File("a.exr")), "a.exr");
+}
+
+TEST(BackgroundImage, UnsuitableImagesAreErrors)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.File("a.exr");
+  WriteFloats(file, Imf::Header(4, 2), { { "u", Ramp(8, 1) }, { "v", Ramp(8, 2) } });
+  EXPECT_HAS(ErrorOf(file), "u, v");
+
+  Imf::Header cube(4, 24);
+  Imf::addEnvmap(cube, Imf::ENVMAP_CUBE);
+  WriteFloats(file, cube, { { "Y", Ramp(96, 1) } });
+  EXPECT_HAS(ErrorOf(file), "cube map");
+
+  WriteFloats(
+    file, Imf::Header(Box2i(V2i(0), V2i(7, 7)), Box2i(V2i(2), V2i(5, 3))), { { "Y", Ramp(8, 1) } });
+  EXPECT_HAS(ErrorOf(file), "uncropped");
+
+  Imf::Header subsampled(4, 2);
+  subsampled.channels().insert("Y", Imf::Channel(Imf::FLOAT, 2, 2));
+  {
+    const std::vector<float> values = Ramp(2, 1);
+    Imf::FrameBuffer frame;
+    frame.insert("Y",
+      Imf::Slice::Make(
+        Imf::FLOAT, values.data(), V2i(0), int64_t(4), int64_t(2), size_t(0), size_t(0), 2, 2));
+    Imf::OutputFile output(file.c_str(), subsampled);
+    output.setFrameBuffer(frame);
+    output.writePixels(2);
+  }
+  EXPECT_HAS(ErrorOf(file), "subsampled");
+}
+
+TEST(BackgroundImage, DeepImageIsAnError)
+{
+  TemporaryFolder folder;
+  const std::string name = folder.File("deep.exr");
+  Imf::Header header(4, 2);
+  header.setType(Imf::DEEPSCANLINE);
+  header.compression() = Imf::ZIPS_COMPRESSION;
+  header.channels().insert("Y", Imf::Channel(Imf::FLOAT));
+  {
+    std::vector<unsigned int> counts(8, 0);
+    std::vector<float*> samples(8, nullptr);
+    Imf::DeepFrameBuffer frame;
+    frame.insertSampleCountSlice(Imf::Slice::Make(Imf::UINT, counts.data(), V2i(0), 4, 2));
+    frame.insert("Y",
+      Imf::DeepSlice(Imf::FLOAT, reinterpret_cast<char*>(samples.data()), sizeof(float*),
+        4 * sizeof(float*), sizeof(float)));
+    Imf::DeepScanLineOutputFile file(name.c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(2);
+  }
+  EXPECT_HAS(ErrorOf(name), "deep image");
+}
+
+TEST(BackgroundImage, AbsurdSizesAreRefusedBeforeAllocation)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.File("a.exr");
+  const auto claim = [&](int width, int height)
+  {
+    Imf::Header header(8, 4);
+    WriteFloats(file, header, { { "Y", Ramp(32, 1) } });
+    Bytes bytes = ReadBytes(file);
+    // Both windows become width x height: "dataWindow\0box2i\0", size (4 bytes), min, max.
+    for (const char* name : { "dataWindow", "displayWindow" })
+    {
+      const auto at = std::search(bytes.begin(), bytes.end(), name, name + std::strlen(name));
+      const int max[2] = { width - 1, height - 1 };
+      std::memcpy(&*at + std::strlen(name) + 1 + 6 + 4 + 8, max, sizeof(max));
+    }
+    WriteBytes(file, bytes);
+    return ErrorOf(file);
+  };
+  EXPECT_EQ(claim(8, 4), "");
+  EXPECT_HAS(claim(1 << 30, 1 << 30), "more than is allowed");
+  EXPECT_HAS(claim(65000, 65000), "more than is allowed");
+  EXPECT_HAS(claim(2000, 60000), "too short");
+  EXPECT_HAS(claim(0, 4), "a.exr");
+  EXPECT_HAS(claim(8, 80), "a.exr");
+}
+
+TEST(BackgroundImage, ForeignFilesAreErrorsThatNameThem)
+{
+  TemporaryFolder folder;
+  const std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
+  WriteBytes(folder.File("sky.hdr"), Bytes(text.begin(), text.end()));
+  EXPECT_HAS(ErrorOf(folder.File("sky.hdr")), "not an OpenEXR file");
+  EXPECT_HAS(ErrorOf(folder.File("sky.hdr")), "sky.hdr");
+  EXPECT_HAS(ErrorOf(folder.File("none.exr")), "no such file");
+  EXPECT_HAS(ErrorOf(folder.File("")), "not a file");
+  EXPECT_HAS(ErrorOf(""), "no such file");
+}
+
+TEST(BackgroundImage, DamagedFilesNeverCrash)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.File("a.exr");
+  for (const auto compression : { Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION,
+         Imf::RLE_COMPRESSION, Imf::DWAA_COMPRESSION })
+  {
+    for (bool tiled : { false, true })
+    {
+      Imf::Header header(40, 36);
+      header.compression() = compression;
+      if (tiled)
+      {
+        header.setTileDescription(Imf::TileDescription(16, 16, Imf::ONE_LEVEL));
+      }
+      WriteFloats(file, header, Rgb(40 * 36));
+      const Bytes whole = ReadBytes(file);
+      ForEachDamage(whole, 60,
+        [&](const Bytes& damaged)
+        {
+          WriteBytes(file, damaged);
+          std::string error;
+          po::LatLongImage image;
+          error = WhatIsThrown([&]() { image = po::ReadLatLongImage(file); });
+          EXPECT_EQ(image.Luminance.size(), std::size_t(image.Width) * image.Height);
+          EXPECT_NE(error.empty(), image.Luminance.empty());
+          EXPECT_TRUE(damaged.size() == whole.size() || !error.empty());
+          EXPECT_TRUE(error.empty() || error.find("a.exr") != std::string::npos) << error;
+        });
+    }
+  }
+}

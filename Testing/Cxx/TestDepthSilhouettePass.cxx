@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "DepthLaplacian.h"
+
+#include "vtkDepthSilhouettePass.h"
+#include "vtkDepthSilhouettes.h"
+#include "vtkZBufferToDepth.h"
+
+#include "vtkActor.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkConeSource.h"
+#include "vtkCubeSource.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderStepsPass.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkSmartPointer.h"
+#include "vtkSphereSource.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+constexpr int Width = 321;
+constexpr int Height = 243;
+
+void AddProp(vtkRenderer* renderer, vtkPolyDataAlgorithm* source, double red)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(source->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(red, 0.7, 0.3);
+  renderer->AddActor(actor);
+}
+
+/// Three spheres and a cone in front of a slanted plane that leaves room for background.
+void FillScene(vtkRenderer* renderer)
+{
+  const double centers[3][3] = { { 0.0, 0.0, 0.0 }, { 0.7, 0.3, -0.4 }, { -1.2, -0.5, 0.3 } };
+  for (const auto& center : centers)
+  {
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetCenter(center[0], center[1], center[2]);
+    sphere->SetRadius(0.5);
+    sphere->SetThetaResolution(96);
+    sphere->SetPhiResolution(96);
+    AddProp(renderer, sphere, 0.9);
+  }
+  vtkNew<vtkConeSource> cone;
+  cone->SetResolution(64);
+  cone->SetCenter(0.2, -0.8, 0.6);
+  AddProp(renderer, cone, 0.2);
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetOrigin(-2.0, -2.0, -3.0);
+  plane->SetPoint1(2.0, -2.0, -2.0);
+  plane->SetPoint2(-2.0, 1.2, -4.0);
+  AddProp(renderer, plane, 0.5);
+}
+
+struct Scene
+{
+  vtkNew<vtkRenderWindow> Window;
+  vtkNew<vtkRenderer> Renderer;
+  vtkNew<vtkRenderStepsPass> Steps;
+  vtkNew<vtkDepthSilhouettePass> Pass;
+
+  explicit Scene(int multiSamples = 0)
+  {
+    this->Window->SetOffScreenRendering(1);
+    this->Window->SetMultiSamples(multiSamples);
+    this->Window->SetSize(Width, Height);
+    this->Window->AddRenderer(this->Renderer);
+    this->Renderer->SetBackground(0.1, 0.2, 0.4);
+    FillScene(this->Renderer);
+    this->Pass->SetDelegatePass(this->Steps);
+    this->Pass->SetColor(1.0, 0.0, 1.0); // nothing in the scene has it
+    this->Renderer->SetPass(this->Pass);
+    this->Renderer->ResetCamera();
+    this->Renderer->GetActiveCamera()->Azimuth(12.0);
+  }
+};
+
+/// The renderer's part of the window, row-major RGB.
+std::vector<unsigned char> Pixels(vtkRenderWindow* window, vtkRenderer* renderer)
+{
+  window->Render();
+  const int* origin = renderer->GetOrigin();
+  const int* size = renderer->GetSize();
+  vtkNew<vtkUnsignedCharArray> rgb;
+  window->GetPixelData(
+    origin[0], origin[1], origin[0] + size[0] - 1, origin[1] + size[1] - 1, 0, rgb);
+  return { rgb->GetPointer(0), rgb->GetPointer(0) + rgb->GetNumberOfValues() };
+}
+
+bool IsLine(const std::vector<unsigned char>& rgb, std::size_t pixel)
+{
+  return rgb[3 * pixel] == 255 && rgb[3 * pixel + 1] == 0 && rgb[3 * pixel + 2] == 255;
+}
+
+/// Depth image of the frame that was rendered last.
+vtkSmartPointer<vtkImageData> DepthOf(vtkRenderWindow* window, vtkRenderer* renderer)
+{
+  const int* origin = renderer->GetOrigin();
+  const int* size = renderer->GetSize();
+  vtkNew<vtkFloatArray> z;
+  window->GetZbufferData(origin[0], origin[1], origin[0] + size[0] - 1, origin[1] + size[1] - 1, z);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(size[0], size[1], 1);
+  image->GetPointData()->SetScalars(z);
+  vtkNew<vtkZBufferToDepth> convert;
+  convert->SetInputData(image);
+  convert->SetProjectionMatrix(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
+    renderer->GetTiledAspectRatio(), -1.0, 1.0));
+  convert->Update();
+  return convert->GetOutput();
+}
+
+std::vector<float> FilterLines(vtkImageData* depth, vtkDepthSilhouettePass* pass)
+{
+  vtkNew<vtkDepthSilhouettes> filter;
+  filter->SetInputData(depth);
+  filter->SetThreshold(pass->GetThreshold());
+  filter->SetBackgroundDepth(pass->GetBackgroundDepth());
+  filter->Update();
+  auto* line = vtkFloatArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetScalars());
+  return { line->GetPointer(0), line->GetPointer(0) + line->GetNumberOfValues() };
+}
+
+/// How far the Laplacian of the pixel is from the threshold, as a share of the farthest depth.
+double Margin(const po::DepthImage<float>& image, const po::EdgeRule& rule, int i, int j)
+{
+  const double value = po::DepthLaplacian(image, i, j, rule.Background);
+  return std::abs(value - rule.Threshold) / rule.Background;
+}
+
+/// Compares the pass with the filter on the same z-buffer, pixel by pixel.
+///
+/// Tolerance: shaders compute in single precision. A distance has a relative error of up to 4 units
+/// of 2^-24 (matrix, square root, quotient, storage), a Laplacian 16 times that of the farthest
+/// depth. Only pixels that close to the threshold may differ, and they must be rare.
+void ExpectAgreement(Scene& scene, vtkRenderer* renderer, vtkDepthSilhouettePass* pass)
+{
+  const auto rgb = Pixels(scene.Window, renderer);
+  const auto depth = DepthOf(scene.Window, renderer);
+  const auto expected = FilterLines(depth, pass);
+  int size[3];
+  depth->GetDimensions(size);
+  auto* values = vtkFloatArray::SafeDownCast(depth->GetPointData()->GetScalars());
+  const po::DepthImage<float> image{ values->GetPointer(0), size[0], size[1] };
+  const po::EdgeRule rule = po::ResolveEdgeRule(
+    { pass->GetThreshold(), pass->GetBackgroundDepth() }, po::FarthestDepth(image));
+
+  const double tolerance = 16.0 * 4.0 * std::ldexp(1.0, -24);
+  int lines = 0;
+  int undecided = 0;
+  for (int j = 0; j < size[1]; ++j)
+  {
+    for (int i = 0; i < size[0]; ++i)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(j) * size[0] + i;
+      lines += expected[pixel] > 0.0F;
+      if (Margin(image, rule, i, j) < tolerance)
+      {
+        ++undecided;
+        continue;
+      }
+      EXPECT_EQ(IsLine(rgb, pixel), expected[pixel] > 0.0F) << "pixel " << i << ", " << j;
+    }
+  }
+  EXPECT_GT(lines, 200);
+  EXPECT_LT(lines, size[0] * size[1] / 10);
+  EXPECT_LT(undecided, lines / 50);
+}
+
+/// All ways to set threshold and background.
+void ExpectAgreementForAllParameters(Scene& scene)
+{
+  for (const double threshold : { 0.0, 0.3 })
+  {
+    for (const double background : { 0.0, 20.0 })
+    {
+      SCOPED_TRACE(
+        testing::Message() << "Threshold " << threshold << ", BackgroundDepth " << background);
+      scene.Pass->SetThreshold(threshold);
+      scene.Pass->SetBackgroundDepth(background);
+      ExpectAgreement(scene, scene.Renderer, scene.Pass);
+    }
+  }
+}
+
+} // namespace
+
+TEST(DepthSilhouettePass, AgreesWithTheFilterInPerspective)
+{
+  Scene scene;
+  ExpectAgreementForAllParameters(scene);
+}
+
+TEST(DepthSilhouettePass, AgreesWithTheFilterInParallelProjection)
+{
+  Scene scene;
+  scene.Renderer->GetActiveCamera()->ParallelProjectionOn();
+  ExpectAgreementForAllParameters(scene);
+}
+
+TEST(DepthSilhouettePass, AgreesWithTheFilterOffCentreAndClose)
+{
+  Scene scene;
+  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  camera->SetWindowCenter(0.3, -0.2);
+  camera->Dolly(1.8);
+  camera->SetViewAngle(70.0);
+  scene.Renderer->ResetCameraClippingRange();
+  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+}
+
+TEST(DepthSilhouettePass, AgreesWithTheFilterOnAMultisampledWindow)
+{
+  Scene scene(8);
+  scene.Window->Render();
+  if (scene.Window->GetMultiSamples() < 2)
+  {
+    GTEST_SKIP() << "this OpenGL has no multisampling";
+  }
+  ExpectAgreementForAllParameters(scene);
+}
+
+TEST(DepthSilhouettePass, AgreesWithTheFilterWithAStencilBuffer)
+{
+  Scene scene;
+  scene.Window->SetStencilCapable(1);
+  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+}
+
+TEST(DepthSilhouettePass, EachViewportHasItsOwnLines)
+{
+  Scene scene;
+  vtkNew<vtkRenderer> second;
+  vtkNew<vtkRenderStepsPass> steps;
+  vtkNew<vtkDepthSilhouettePass> pass;
+  FillScene(second);
+  pass->SetDelegatePass(steps);
+  pass->SetColor(1.0, 0.0, 1.0);
+  second->SetPass(pass);
+  scene.Window->AddRenderer(second);
+  scene.Renderer->SetViewport(0.0, 0.0, 0.45, 1.0);
+  second->SetViewport(0.45, 0.2, 1.0, 0.9);
+  scene.Renderer->ResetCamera();
+  second->ResetCamera();
+  second->GetActiveCamera()->Elevation(30.0);
+  second->ResetCameraClippingRange();
+  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  ExpectAgreement(scene, second, pass);
+}
+
+TEST(DepthSilhouettePass, LinesContinueAcrossTiles)
+{
+  Scene scene;
+  scene.Window->SetSize(320, 240);
+  // The cube's lower edge and its left one lie on the seams between the tiles.
+  vtkNew<vtkCubeSource> cube;
+  cube->SetBounds(0.0, 0.4, 0.0, 0.5, 1.0, 1.5);
+  AddProp(scene.Renderer, cube, 0.6);
+  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetFocalPoint(0.0, 0.0, 0.0);
+  camera->SetPosition(0.0, 0.0, 8.0);
+  camera->SetParallelScale(1.5);
+  scene.Renderer->ResetCameraClippingRange();
+  const auto whole = Pixels(scene.Window, scene.Renderer);
+
+  scene.Window->SetSize(160, 120);
+  scene.Window->Render();
+  vtkNew<vtkWindowToImageFilter> tiles;
+  tiles->SetInput(scene.Window);
+  tiles->SetScale(2);
+  tiles->ReadFrontBufferOff();
+  tiles->Update();
+  auto* rgb = vtkUnsignedCharArray::SafeDownCast(tiles->GetOutput()->GetPointData()->GetScalars());
+  ASSERT_EQ(rgb->GetNumberOfValues(), static_cast<vtkIdType>(whole.size()));
+  const std::vector<unsigned char> joined(
+    rgb->GetPointer(0), rgb->GetPointer(0) + rgb->GetNumberOfValues());
+  int lines = 0;
+  int different = 0;
+  for (std::size_t pixel = 0; pixel < whole.size() / 3; ++pixel)
+  {
+    lines += IsLine(whole, pixel);
+    different += IsLine(whole, pixel) != IsLine(joined, pixel);
+  }
+  EXPECT_GT(lines, 500);
+  // The tiles' matrices round differently, so that a surface may gain or lose a pixel at its edge;
+  // one side of the cube has 40 pixels or more.
+  EXPECT_LE(different, 8);
+}
+
+TEST(DepthSilhouettePass, ChangesNothingButTheLine)
+{
+  for (const int samples : { 0, 8 })
+  {
+    Scene scene(samples);
+    const auto with = Pixels(scene.Window, scene.Renderer);
+    const auto depth = DepthOf(scene.Window, scene.Renderer);
+    scene.Pass->LineVisibilityOff();
+    const auto without = Pixels(scene.Window, scene.Renderer);
+    const auto depthWithout = DepthOf(scene.Window, scene.Renderer);
+    ASSERT_EQ(with.size(), without.size());
+    for (std::size_t pixel = 0; pixel < with.size() / 3; ++pixel)
+    {
+      EXPECT_FALSE(IsLine(without, pixel));
+      for (int channel = 0; channel < 3 && !IsLine(with, pixel); ++channel)
+      {
+        EXPECT_EQ(with[3 * pixel + channel], without[3 * pixel + channel]) << "pixel " << pixel;
+      }
+      EXPECT_EQ(depth->GetPointData()->GetScalars()->GetTuple1(pixel),
+        depthWithout->GetPointData()->GetScalars()->GetTuple1(pixel));
+    }
+    scene.Renderer->SetPass(nullptr);
+    EXPECT_EQ(Pixels(scene.Window, scene.Renderer), without);
+  }
+}
+
+TEST(DepthSilhouettePass, SurvivesResizeReleaseAndEmptyScenes)
+{
+  Scene scene;
+  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  scene.Window->SetSize(150, 200);
+  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  scene.Pass->ReleaseGraphicsResources(scene.Window);
+  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  scene.Window->Finalize();
+  scene.Window->SetSize(Width, Height);
+  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  scene.Renderer->RemoveAllViewProps();
+  const auto rgb = Pixels(scene.Window, scene.Renderer);
+  for (std::size_t pixel = 0; pixel < rgb.size() / 3; ++pixel)
+  {
+    EXPECT_FALSE(IsLine(rgb, pixel));
+  }
+}
+
+TEST(DepthSilhouettePass, OpacityBlends)
+{
+  Scene scene;
+  scene.Pass->SetColor(0.0, 0.0, 0.0);
+  scene.Pass->SetOpacity(0.0);
+  const auto clear = Pixels(scene.Window, scene.Renderer);
+  scene.Pass->LineVisibilityOff();
+  EXPECT_EQ(Pixels(scene.Window, scene.Renderer), clear);
+  scene.Pass->LineVisibilityOn();
+  scene.Pass->SetOpacity(0.5);
+  const auto half = Pixels(scene.Window, scene.Renderer);
+  const auto lines = FilterLines(DepthOf(scene.Window, scene.Renderer), scene.Pass);
+  int wrong = 0;
+  for (std::size_t value = 0; value < half.size(); ++value)
+  {
+    const int expected = lines[value / 3] > 0.0F ? clear[value] / 2 : clear[value];
+    wrong += std::abs(half[value] - expected) > 1;
+  }
+  EXPECT_LE(wrong, 3); // one pixel may lie on the threshold itself
+}
+
+TEST(DepthSilhouettePass, WrongParametersAreReportedAndDrawNoLines)
+{
+  Scene scene;
+  scene.Pass->LineVisibilityOff();
+  const auto without = Pixels(scene.Window, scene.Renderer);
+  scene.Pass->LineVisibilityOn();
+  std::string errors;
+  vtkNew<vtkCallbackCommand> catcher;
+  catcher->SetClientData(&errors);
+  catcher->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
+    { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
+  scene.Pass->AddObserver(vtkCommand::ErrorEvent, catcher);
+  for (const double wrong : { -1.0, std::numeric_limits<double>::quiet_NaN() })
+  {
+    scene.Pass->SetThreshold(wrong);
+    EXPECT_EQ(Pixels(scene.Window, scene.Renderer), without);
+    EXPECT_NE(errors.find("Threshold"), std::string::npos);
+    scene.Pass->SetThreshold(0.0);
+    scene.Pass->SetBackgroundDepth(wrong);
+    EXPECT_EQ(Pixels(scene.Window, scene.Renderer), without);
+    EXPECT_NE(errors.find("BackgroundDepth"), std::string::npos);
+    scene.Pass->SetBackgroundDepth(0.0);
+  }
+}

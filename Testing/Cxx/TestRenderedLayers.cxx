@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ExrTestSupport.h"
+
+#include "vtkRenderedLayersWriter.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkPointData.h"
+#include "vtkSmartPointer.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace Imf = OPENEXR_IMF_NAMESPACE;
+
+namespace
+{
+
+using Image = vtkSmartPointer<vtkImageData>;
+
+Image EmptyImage(int width, int height)
+{
+  Image image = Image::New();
+  image->SetDimensions(width, height, 1);
+  return image;
+}
+
+template <typename Array>
+vtkSmartPointer<Array> AddArray(vtkImageData* image, const char* name, int components)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(image->GetNumberOfPoints());
+  array->FillValue(0);
+  image->GetPointData()->AddArray(array);
+  return array;
+}
+
+int Write(vtkImageData* image, const std::string& fileName)
+{
+  vtkNew<vtkRenderedLayersWriter> writer;
+  writer->SetInputDataObject(image);
+  writer->SetFileName(fileName.c_str());
+  return writer->Write();
+}
+
+std::string ErrorOfWriting(vtkImageData* image, const std::string& fileName)
+{
+  vtkNew<vtkRenderedLayersWriter> writer;
+  Messages messages(writer);
+  writer->SetInputDataObject(image);
+  writer->SetFileName(fileName.c_str());
+  EXPECT_EQ(writer->Write(), 0);
+  EXPECT_NE(writer->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(messages.Errors.size(), 1u);
+  return messages.Errors.empty() ? std::string() : messages.Errors.front();
+}
+
+/// A channel as OpenEXR reads it, the top row first.
+template <typename Pixel>
+std::vector<Pixel> ReadChannel(
+  const std::string& fileName, const char* name, Imf::PixelType memory, Imf::PixelType stored)
+{
+  Imf::InputFile file(fileName.c_str());
+  const auto& window = file.header().dataWindow();
+  const Imf::Channel* channel = file.header().channels().findChannel(name);
+  EXPECT_NE(channel, nullptr) << name;
+  if (!channel)
+  {
+    return {};
+  }
+  EXPECT_EQ(channel->type, stored) << name;
+  std::vector<Pixel> pixels((window.max.x + 1) * (window.max.y + 1));
+  Imf::FrameBuffer frame;
+  frame.insert(name, Imf::Slice::Make(memory, pixels.data(), window));
+  file.setFrameBuffer(frame);
+  file.readPixels(window.min.y, window.max.y);
+  return pixels;
+}
+
+std::vector<float> ReadFloats(const std::string& file, const char* name)
+{
+  return ReadChannel<float>(file, name, Imf::FLOAT, Imf::FLOAT);
+}
+
+std::vector<float> ReadHalves(const std::string& file, const char* name)
+{
+  return ReadChannel<float>(file, name, Imf::FLOAT, Imf::HALF);
+}
+
+std::set<std::string> ChannelNames(const std::string& fileName)
+{
+  Imf::InputFile file(fileName.c_str());
+  std::set<std::string> names;
+  const Imf::ChannelList& channels = file.header().channels();
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+  {
+    names.insert(channel.name());
+  }
+  return names;
+}
+
+}
+
+TEST(RenderedLayers, LayersHaveTheirNamesTypesValuesAndStandUpright)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.File("a.exr");
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr float tiny = 1.0f / (1 << 30); // far below what HALF can hold
+  Image image = EmptyImage(2, 3);
+  auto depth = AddArray<vtkFloatArray>(image, "Z", 1);
+  auto occlusion = AddArray<vtkDoubleArray>(image, "AO", 1);
+  auto normal = AddArray<vtkFloatArray>(image, "N", 3);
+  auto id = AddArray<vtkTypeInt64Array>(image, "id", 1);
+  auto extra = AddArray<vtkFloatArray>(image, "velocity", 2);
+  for (int i = 0; i < 6; ++i)
+  {
+    depth->SetValue(i, i == 5 ? infinity : tiny * i);
+    occlusion->SetValue(i, 0.125 * i);
+    normal->SetTuple3(i, i, -i, 0.5);
+    id->SetValue(i, i == 5 ? -1 : 4294967290 + i);
+    extra->SetTuple2(i, 10.0 * i, 20.0 * i);
+  }
+  ASSERT_EQ(Write(image, file), 1);
+
+  EXPECT_EQ(ChannelNames(file),
+    (std::set<std::string>{ "Z", "AO", "N.X", "N.Y", "N.Z", "id", "velocity.X", "velocity.Y" }));
+  // VTK's last row (tuples 4 and 5) is the top one.
+  EXPECT_EQ(ReadFloats(file, "Z"),
+    (std::vector<float>{ 4 * tiny, infinity, 2 * tiny, 3 * tiny, 0.0f, tiny }));
+  EXPECT_EQ(
+    ReadFloats(file, "AO"), (std::vector<float>{ 0.5f, 0.625f, 0.25f, 0.375f, 0.0f, 0.125f }));
+  EXPECT_EQ(ReadFloats(file, "N.Y"), (std::vector<float>{ -4, -5, -2, -3, 0, -1 }));
+  EXPECT_EQ(ReadFloats(file, "velocity.Y"), (std::vector<float>{ 80, 100, 40, 60, 0, 20 }));
+  EXPECT_EQ(ReadChannel<unsigned int>(file, "id", Imf::UINT, Imf::UINT),
+    (std::vector<unsigned int>{
+      4294967294u, 4294967295u, 4294967292u, 4294967293u, 4294967290u, 4294967291u }));
+}
+
+TEST(RenderedLayers, ColorsAreLinearAndPremultiplied)
+{
+  TemporaryFolder folder;
+  Image image = EmptyImage(4, 1);
+  auto color = AddArray<vtkUnsignedCharArray>(image, "RGBA", 4);
+  color->SetTuple4(0, 255, 128, 0, 255);
+  color->SetTuple4(1, 255, 128, 10, 51);
+  color->SetTuple4(2, 255, 255, 255, 0);
+  color->SetTuple4(3, 10, 11, 188, 255);
+  ASSERT_EQ(Write(image, folder.File("a.exr")), 1);
+  const auto red = ReadHalves(folder.File("a.exr"), "R");
+  const auto green = ReadHalves(folder.File("a.exr"), "G");
+  const auto blue = ReadHalves(folder.File("a.exr"), "B");
+  const auto alpha = ReadHalves(folder.File("a.exr"), "A");
+  EXPECT_EQ(red[0], 1.0f);
+  EXPECT_NEAR(green[0], 0.21586, 2e-4); // sRGB 128
+  EXPECT_EQ(blue[0], 0.0f);
+  EXPECT_NEAR(red[1], 0.2, 2e-4);
+  EXPECT_NEAR(green[1], 0.2 * 0.21586, 4e-5);
+  EXPECT_NEAR(alpha[1], 0.2, 2e-4);
+  EXPECT_EQ(red[2], 0.0f);
+  EXPECT_EQ(alpha[2], 0.0f);
+  EXPECT_NEAR(red[3], 10 / 255.0 / 12.92, 3e-6); // below the knee of the curve
+  EXPECT_NEAR(green[3], 0.0033465, 3e-6);        // above it
+  EXPECT_NEAR(blue[3], 0.50289, 3e-4);
+}
+
+TEST(RenderedLayers, EveryOpaqueColorComesBack)
+{
+  TemporaryFolder folder;
+  Image image = EmptyImage(256, 1);
+  auto color = AddArray<vtkUnsignedCharArray>(image, "RGBA", 4);
+  for (int byte = 0; byte < 256; ++byte)
+  {
+    color->SetTuple4(byte, byte, byte, byte, 255);
+  }
+  ASSERT_EQ(Write(image, folder.File("a.exr")), 1);
+  const auto red = ReadHalves(folder.File("a.exr"), "R");
+  for (int byte = 0; byte < 256; ++byte)
+  {
+    const double linear = red[byte];
+    const double srgb =
+      linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+    EXPECT_EQ(std::lround(255.0 * srgb), byte);
+  }
+}
+
+TEST(RenderedLayers, OtherIntegersAreLeftOutWithAWarning)
+{
+  TemporaryFolder folder;
+  Image image = EmptyImage(2, 2);
+  AddArray<vtkFloatArray>(image, "Z", 1);
+  AddArray<vtkIntArray>(image, "counts", 1);
+  vtkNew<vtkRenderedLayersWriter> writer;
+  Messages messages(writer);
+  writer->SetInputDataObject(image);
+  writer->SetFileName(folder.File("a.exr").c_str());
+  EXPECT_EQ(writer->Write(), 1);
+  EXPECT_TRUE(OneMessage(messages.Warnings, "counts"));
+  EXPECT_EQ(ChannelNames(folder.File("a.exr")), std::set<std::string>{ "Z" });
+}
+
+TEST(RenderedLayers, WhatCannotBeWrittenIsAnError)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.File("a.exr");
+  EXPECT_HAS(ErrorOfWriting(EmptyImage(2, 2), file), "no point array");
+
+  Image counts = EmptyImage(2, 2);
+  AddArray<vtkIntArray>(counts, "counts", 1);
+  EXPECT_HAS(ErrorOfWriting(counts, file), "it has: counts");
+
+  Image volume = Image::New();
+  volume->SetDimensions(2, 2, 2);
+  AddArray<vtkFloatArray>(volume, "Z", 1);
+  EXPECT_HAS(ErrorOfWriting(volume, file), "2 x 2 x 2");
+
+  Image rgb = EmptyImage(2, 2);
+  AddArray<vtkUnsignedCharArray>(rgb, "RGBA", 3);
+  EXPECT_HAS(ErrorOfWriting(rgb, file), "\"RGBA\"");
+
+  Image flatNormal = EmptyImage(2, 2);
+  AddArray<vtkFloatArray>(flatNormal, "N", 2);
+  EXPECT_HAS(ErrorOfWriting(flatNormal, file), "\"N\" has 2 components; 3");
+
+  Image tensor = EmptyImage(2, 2);
+  AddArray<vtkFloatArray>(tensor, "stress", 9);
+  EXPECT_HAS(ErrorOfWriting(tensor, file), "\"stress\" has 9 components; 1 to 4");
+
+  Image ids = EmptyImage(2, 2);
+  AddArray<vtkTypeInt64Array>(ids, "id", 1)->SetValue(0, 5000000000);
+  EXPECT_HAS(ErrorOfWriting(ids, file), "5000000000");
+
+  Image twice = EmptyImage(2, 2);
+  AddArray<vtkUnsignedCharArray>(twice, "RGBA", 4);
+  AddArray<vtkFloatArray>(twice, "R", 1);
+  EXPECT_HAS(ErrorOfWriting(twice, file), "\"R\"");
+  EXPECT_EQ(folder.Count(), 0u);
+
+  Image good = EmptyImage(2, 2);
+  AddArray<vtkFloatArray>(good, "Z", 1);
+  EXPECT_HAS(ErrorOfWriting(good, folder.File("none/a.exr")), "No such file or directory");
+  EXPECT_HAS(ErrorOfWriting(good, ""), "No file name");
+}
+
+#ifndef _WIN32
+TEST(RenderedLayers, FullDiskLeavesThePreviousFileAndNoPartialOne)
+{
+  TemporaryFolder folder;
+  Image image = EmptyImage(200, 200);
+  auto depth = AddArray<vtkFloatArray>(image, "Z", 1);
+  ASSERT_EQ(Write(image, folder.File("a.exr")), 1);
+  const Bytes before = ReadBytes(folder.File("a.exr"));
+  std::mt19937 random(1);
+  for (vtkIdType i = 0; i < depth->GetNumberOfValues(); ++i)
+  {
+    depth->SetValue(i, std::generate_canonical<float, 24>(random));
+  }
+  {
+    FileSizeLimit full(20000);
+    EXPECT_HAS(ErrorOfWriting(image, folder.File("a.exr")), "File too large");
+  }
+  EXPECT_EQ(ReadBytes(folder.File("a.exr")), before);
+  EXPECT_EQ(folder.Count(), 1u);
+}
+#endif

@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The view with silhouettes and the image filter in pvpython.
+
+The plugin's path is the argument or the environment variable PARTICLEOCCLUSION_PLUGIN.
+"""
+import os
+import sys
+import tempfile
+import unittest
+
+import numpy
+from paraview import servermanager
+from paraview import simple
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+SIZE = (300, 240)
+COLOR = (255, 0, 255)  # nothing else in the pictures has it
+
+
+def picture(view, size=SIZE, **options):
+    """RGB(A) of the view as bytes, shape (height, width, channels), first row at the bottom."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "view.png")
+        simple.SaveScreenshot(name, view, ImageResolution=size, **options)
+        reader = vtkPNGReader()
+        reader.SetFileName(name)
+        reader.Update()
+        image = reader.GetOutput()
+        width, height, _ = image.GetDimensions()
+        return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1).copy()
+
+
+def lines(image):
+    return (image[:, :, :3] == COLOR).all(axis=2)
+
+
+def widened(mask):
+    """The mask and its eight neighbours."""
+    padded = numpy.pad(mask, 1)
+    height, width = mask.shape
+    shifts = [padded[j:j + height, i:i + width] for j in range(3) for i in range(3)]
+    return numpy.logical_or.reduce(shifts)
+
+
+class SilhouetteView(unittest.TestCase):
+    def setUp(self):
+        self.view = simple.CreateView("RenderViewWithSilhouettes")
+        self.view.ViewSize = SIZE
+        self.view.UseFXAA = 0
+        self.view.OrientationAxesVisibility = 0
+        self.view.UseColorPaletteForBackground = 0
+        self.view.Background = (0.0, 1.0, 0.0)
+        self.view.SilhouetteColor = [channel / 255 for channel in COLOR]
+        self.sphere = simple.Sphere(ThetaResolution=128, PhiResolution=128)
+        simple.Show(self.sphere, self.view)
+        simple.ResetCamera(self.view)
+
+    def tearDown(self):
+        simple.Delete(self.view)
+        simple.Delete(self.sphere)
+
+    def geometry(self, **options):
+        """Pixels that are not background, seen without lines."""
+        self.view.SilhouetteVisibility = 0
+        image = picture(self.view, **options)
+        self.view.SilhouetteVisibility = 1
+        self.assertFalse(lines(image).any())
+        return (image[:, :, :3] != (0, 255, 0)).any(axis=2)
+
+    def test_outline_surrounds_the_sphere(self):
+        for parallel in (0, 1):
+            self.view.CameraParallelProjection = parallel
+            inside = self.geometry()
+            self.assertGreater(inside.sum(), 1000)
+            outline = lines(picture(self.view))
+            numpy.testing.assert_array_equal(outline, widened(inside) & ~inside)
+
+    def test_line_before_another_object(self):
+        plane = simple.Plane(Origin=(-2, -2, -3), Point1=(2, -2, -3), Point2=(-2, 2, -3))
+        simple.Show(plane, self.view)
+        found = lines(picture(self.view))
+        simple.Delete(plane)
+        inside = self.geometry()
+        ring = widened(inside) & ~inside
+        # Where the outline touches the sphere by a corner only, the jump counts once, not 3 times.
+        self.assertFalse((found & inside).any())
+        self.assertGreater((found & ring).sum(), 0.9 * ring.sum())
+
+    def test_threshold_and_background(self):
+        self.view.SilhouetteBackgroundDepth = 10.0
+        self.view.SilhouetteThreshold = 1.0
+        self.assertTrue(lines(picture(self.view)).any())
+        self.view.SilhouetteThreshold = 1000.0
+        self.assertFalse(lines(picture(self.view)).any())
+
+    def test_large_and_transparent_screenshots(self):
+        image = picture(self.view, size=(620, 480), TransparentBackground=1)
+        self.assertEqual(image.shape, (480, 620, 4))
+        opaque = image[:, :, 3] == 255
+        self.assertTrue(opaque[lines(image)].all())
+        self.assertTrue((image[~opaque][:, 3] == 0).all())
+        inside = opaque & ~lines(image)
+        numpy.testing.assert_array_equal(lines(image), widened(inside) & ~inside)
+
+    def test_selection_sees_the_props(self):
+        simple.Render(self.view)
+        simple.SelectSurfaceCells(Rectangle=[140, 110, 160, 130], View=self.view)
+        self.assertIsNotNone(self.sphere.SMProxy.GetSelectionInput(0))
+        simple.ClearSelection()
+
+
+class DepthSilhouettes(unittest.TestCase):
+    def test_step_of_an_image(self):
+        source = simple.ProgrammableSource(OutputDataSetType="vtkImageData")
+        source.ScriptRequestInformation = """
+self.GetOutputInformation(0).Set(self.GetExecutive().WHOLE_EXTENT(), 0, 9, 0, 7, 0, 0)
+"""
+        source.Script = """
+import numpy
+output.SetDimensions(10, 8, 1)
+depth = numpy.ones((8, 10))
+depth[:, 6:] = 2.0
+output.PointData.append(depth.ravel(), "distance")
+"""
+        marked = simple.DepthSilhouettes(Input=source, DepthArray=["POINTS", "distance"])
+        image = servermanager.Fetch(marked)
+        strength = vtk_to_numpy(image.GetPointData().GetArray("Silhouette")).reshape(8, 10)
+        expected = numpy.zeros((8, 10))
+        expected[:, 6] = 1.0
+        numpy.testing.assert_array_equal(strength, expected)
+
+
+if __name__ == "__main__":
+    plugin = sys.argv.pop(1) if len(sys.argv) > 1 else os.environ["PARTICLEOCCLUSION_PLUGIN"]
+    simple.LoadPlugin(plugin, ns=vars(simple))
+    unittest.main()

@@ -1,0 +1,10 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Sets up, builds and runs all tests on a virtual display. Arguments go to ctest (-R NAME, ...).
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+
+cd "$source_dir"
+# Without -noreset the X server restarts whenever its last client leaves, and the next one may fail.
+exec xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \
+  ctest --preset default --parallel "$(nproc)" "$@"
