@@ -1,23 +1,146 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkRayTracedSphereMapper
+ * @brief Draws the points of a vtkPolyData as ray-traced spheres, with baked ambient occlusion.
+ *
+ * One ray a pixel finds the nearest sphere exactly; the pixel gets the colour of the point (by
+ * scalars and lookup table, as in any mapper), light from the renderer's lights with the property's
+ * ambient, diffuse and specular terms, optionally hard shadows, and the occlusion that
+ * vtkSphereAmbientOcclusion has baked onto the points, if it is there. Depth is written, so that
+ * spheres and other props interpenetrate. Points that cannot be spheres (NaN, infinite or negative
+ * radius) are left out and reported once. Cells are not used.
+ *
+ * A frame is kept: it is traced again only when spheres, camera, window size or placement change,
+ * and shadows of a light only when that light moves. Colours, coefficients and lookup tables cost
+ * shading alone.
+ *
+ * Spheres are opaque: opacity is not used. An actor whose property is translucent would be drawn in
+ * the translucent pass, where depth peeling needs more than one surface a pixel; call
+ * vtkActor::ForceOpaqueOn() for such an actor.
+ */
 #ifndef vtkRayTracedSphereMapper_h
 #define vtkRayTracedSphereMapper_h
 
 #include "ParticleOcclusionRenderingModule.h"
 #include "vtkPolyDataMapper.h"
 
+#include <memory>
+
+class vtkImageData;
+
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkRayTracedSphereMapper : public vtkPolyDataMapper
 {
 public:
   static vtkRayTracedSphereMapper* New();
   vtkTypeMacro(vtkRayTracedSphereMapper, vtkPolyDataMapper);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum ShadingModes
+  {
+    DIRECT_LIGHT = 0,      ///< light and shadows, without baked occlusion
+    AMBIENT_OCCLUSION = 1, ///< occlusion times the point's colour, without light
+    BOTH = 2               ///< light scaled by occlusion
+  };
+
+  ///@{
+  /// Name of the point array of radii, in world units; of an array named "diameter" half the value.
+  /// Empty (default): the first of radius, Radius, rad, r, diameter that exists, otherwise none.
+  /// "(none)": no array, all radii are ConstantRadius.
+  vtkSetStringMacro(RadiusArray);
+  vtkGetStringMacro(RadiusArray);
+  ///@}
+
+  ///@{
+  /// Factor on every radius, positive. Default 1.
+  vtkSetMacro(RadiusScale, double);
+  vtkGetMacro(RadiusScale, double);
+  ///@}
+
+  ///@{
+  /// Radius of all spheres where no array is used, in world units. 0 (default): half the median
+  /// distance between nearest neighbours.
+  vtkSetMacro(ConstantRadius, double);
+  vtkGetMacro(ConstantRadius, double);
+  ///@}
+
+  ///@{
+  /// What makes up the brightness of a pixel. Default BOTH.
+  vtkSetClampMacro(ShadingMode, int, DIRECT_LIGHT, BOTH);
+  vtkGetMacro(ShadingMode, int);
+  ///@}
+
+  ///@{
+  /// In mode BOTH occlusion scales the ambient term, and with this the diffuse term too. Default
+  /// on, since VTK's ambient coefficient is 0 by default.
+  vtkSetMacro(OcclusionOnDiffuse, bool);
+  vtkGetMacro(OcclusionOnDiffuse, bool);
+  vtkBooleanMacro(OcclusionOnDiffuse, bool);
+  ///@}
+
+  ///@{
+  /// Hard shadows that spheres cast on spheres, from each light. Default off.
+  vtkSetMacro(Shadows, bool);
+  vtkGetMacro(Shadows, bool);
+  vtkBooleanMacro(Shadows, bool);
+  ///@}
+
+  /// The last frame that was drawn, rows from the bottom, with the point arrays RGBA (uint8), Z
+  /// (float32, distance along the eye ray or, in parallel projection, the view direction, in world
+  /// units; +infinity on background), AO (float32), N (float32[3], world-space unit normal) and id
+  /// (int64, point, -1 on background). An empty image before the first frame. The image belongs to
+  /// the mapper and does not follow later frames.
+  vtkImageData* GetLayers();
+
+  ///@{
+  /// What was done: spheres that are drawn; of the last frame that was traced the rays (primary and
+  /// shadow), tiles that were skipped and shadow rays that were saved; frames traced so far.
+  vtkIdType GetNumberOfSpheres();
+  vtkIdType GetNumberOfRays();
+  vtkIdType GetNumberOfShadowRays();
+  vtkIdType GetNumberOfSkippedTiles();
+  vtkIdType GetNumberOfSkippedShadowRays();
+  vtkIdType GetNumberOfTracedFrames();
+  ///@}
+
+  ///@{
+  /// Seconds that each step took the last time it was done.
+  double GetBuildSeconds();
+  double GetTraceSeconds();
+  double GetShadowSeconds();
+  double GetShadeSeconds();
+  ///@}
+
+  void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+  bool HasOpaqueGeometry() override { return true; }
+  bool HasTranslucentPolygonalGeometry() override { return false; }
+  bool GetSupportsSelection() override { return true; }
 
 protected:
-  vtkRayTracedSphereMapper() = default;
-  ~vtkRayTracedSphereMapper() override = default;
+  vtkRayTracedSphereMapper();
+  ~vtkRayTracedSphereMapper() override;
+
+  void ComputeBounds() override;
 
 private:
   vtkRayTracedSphereMapper(const vtkRayTracedSphereMapper&) = delete;
   void operator=(const vtkRayTracedSphereMapper&) = delete;
+
+  void UpdateSpheres();
+  void TraceAndDraw(vtkRenderer* renderer, vtkActor* actor);
+  void Shade(vtkRenderer* renderer, vtkActor* actor);
+  const unsigned char* MapPointColors();
+  void ColorForSelection(vtkRenderer* renderer);
+
+  char* RadiusArray = nullptr;
+  double RadiusScale = 1;
+  double ConstantRadius = 0;
+  int ShadingMode = BOTH;
+  bool OcclusionOnDiffuse = true;
+  bool Shadows = false;
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
 };
 
 #endif

@@ -1,6 +1,344 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRayTracedSphereRepresentation.h"
 
+#include "BakedTextures.h"
+
+#include "vtkActor.h"
+#include "vtkAlgorithm.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataSet.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
 #include "vtkObjectFactory.h"
+#include "vtkPVRenderView.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRayTracedSphereMapper.h"
+#include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
+
+#include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkRayTracedSphereRepresentation);
+
+namespace
+{
+/// The points of a data set; those of an image or a rectilinear grid are computed.
+vtkSmartPointer<vtkPointSet> pointsOf(vtkDataSet* data)
+{
+  if (auto* points = vtkPointSet::SafeDownCast(data))
+  {
+    return points;
+  }
+  auto computed = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(data->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    points->SetPoint(i, data->GetPoint(i));
+  }
+  computed->SetPoints(points);
+  computed->GetPointData()->ShallowCopy(data->GetPointData());
+  computed->GetFieldData()->ShallowCopy(data->GetFieldData());
+  return computed;
+}
+
+/// All blocks that have points.
+std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
+{
+  std::vector<vtkSmartPointer<vtkPointSet>> blocks;
+  const auto add = [&](vtkDataObject* leaf)
+  {
+    auto* block = vtkDataSet::SafeDownCast(leaf);
+    if (block && block->GetNumberOfPoints() > 0)
+    {
+      blocks.push_back(pointsOf(block));
+    }
+  };
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+    {
+      add(leaves->GetCurrentDataObject());
+    }
+  }
+  else
+  {
+    add(data);
+  }
+  return blocks;
+}
+}
+
+vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
+{
+  this->Actor->SetMapper(this->Mapper);
+  // Without this an opacity below 1 would send the spheres to the translucent pass.
+  this->Actor->ForceOpaqueOn();
+}
+
+vtkRayTracedSphereRepresentation::~vtkRayTracedSphereRepresentation() = default;
+
+bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->AddActor(this->Actor);
+  renderView->RegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::AddToView(view);
+}
+
+bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
+{
+  auto* renderView = vtkPVRenderView::SafeDownCast(view);
+  if (!renderView)
+  {
+    return false;
+  }
+  renderView->GetRenderer()->RemoveActor(this->Actor);
+  renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
+  return this->Superclass::RemoveFromView(view);
+}
+
+int vtkRayTracedSphereRepresentation::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  // Where the data are not, on a client for instance, a representation has no input.
+  info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  return 1;
+}
+
+int vtkRayTracedSphereRepresentation::RequestData(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  const auto blocks = blocksOf(vtkDataObject::GetData(inputVector[0], 0));
+  std::string warning;
+  this->Particles = po::mergeParticles({ blocks.begin(), blocks.end() }, warning);
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+int vtkRayTracedSphereRepresentation::ProcessViewRequest(
+  vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo)
+{
+  if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
+  {
+    return 0; // not visible, nothing to do
+  }
+  if (request == vtkPVView::REQUEST_UPDATE())
+  {
+    this->ProvideData(inInfo);
+  }
+  else if (request == vtkPVView::REQUEST_RENDER())
+  {
+    this->Mapper->SetInputDataObject(vtkPVView::GetDeliveredPiece(inInfo, this));
+    this->UpdateColoring();
+  }
+  return 1;
+}
+
+void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
+{
+  double bounds[6];
+  vtkMath::UninitializeBounds(bounds);
+  if (this->Particles)
+  {
+    vtkPVView::SetPiece(inInfo, this, this->Particles);
+    this->Mapper->SetInputDataObject(this->Particles);
+    this->Mapper->GetBounds(bounds);
+  }
+  vtkNew<vtkMatrix4x4> matrix;
+  this->Actor->GetMatrix(matrix);
+  vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+}
+
+void vtkRayTracedSphereRepresentation::UpdateColoring()
+{
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  const bool byArray = info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+    info->Has(vtkDataObject::FIELD_NAME()) &&
+    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  const char* name = byArray ? info->Get(vtkDataObject::FIELD_NAME()) : nullptr;
+  const bool colored = name && name[0] != '\0';
+  this->Mapper->SetScalarVisibility(colored);
+  this->Mapper->SetScalarModeToUsePointFieldData();
+  this->Mapper->SetUseLookupTableScalarRange(true);
+  this->Mapper->SelectColorArray(colored ? name : nullptr);
+}
+
+void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
+{
+  this->Actor->SetVisibility(visible);
+  this->Superclass::SetVisibility(visible);
+}
+
+// Parameters of the geometry change the bounds, which the view asks for in an update only.
+
+void vtkRayTracedSphereRepresentation::SetRadiusArray(const char* name)
+{
+  this->Mapper->SetRadiusArray(name);
+  this->MarkModified();
+}
+
+void vtkRayTracedSphereRepresentation::SetRadiusScale(double scale)
+{
+  this->Mapper->SetRadiusScale(scale);
+  this->MarkModified();
+}
+
+void vtkRayTracedSphereRepresentation::SetConstantRadius(double radius)
+{
+  this->Mapper->SetConstantRadius(radius);
+  this->MarkModified();
+}
+
+void vtkRayTracedSphereRepresentation::SetShadingMode(int mode)
+{
+  this->Mapper->SetShadingMode(mode);
+}
+
+void vtkRayTracedSphereRepresentation::SetOcclusionOnDiffuse(bool on)
+{
+  this->Mapper->SetOcclusionOnDiffuse(on);
+}
+
+void vtkRayTracedSphereRepresentation::SetShadows(bool on)
+{
+  this->Mapper->SetShadows(on);
+}
+
+void vtkRayTracedSphereRepresentation::SetLookupTable(vtkScalarsToColors* table)
+{
+  this->Mapper->SetLookupTable(table);
+}
+
+void vtkRayTracedSphereRepresentation::SetMapScalars(int map)
+{
+  this->Mapper->SetColorMode(map != 0 ? VTK_COLOR_MODE_MAP_SCALARS : VTK_COLOR_MODE_DIRECT_SCALARS);
+}
+
+vtkImageData* vtkRayTracedSphereRepresentation::GetLayers()
+{
+  return this->Mapper->GetLayers();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSpheres()
+{
+  return this->Mapper->GetNumberOfSpheres();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfRays()
+{
+  return this->Mapper->GetNumberOfRays();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfShadowRays()
+{
+  return this->Mapper->GetNumberOfShadowRays();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSkippedTiles()
+{
+  return this->Mapper->GetNumberOfSkippedTiles();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSkippedShadowRays()
+{
+  return this->Mapper->GetNumberOfSkippedShadowRays();
+}
+
+double vtkRayTracedSphereRepresentation::GetTraceSeconds()
+{
+  return this->Mapper->GetTraceSeconds();
+}
+
+double vtkRayTracedSphereRepresentation::GetShadowSeconds()
+{
+  return this->Mapper->GetShadowSeconds();
+}
+
+double vtkRayTracedSphereRepresentation::GetShadeSeconds()
+{
+  return this->Mapper->GetShadeSeconds();
+}
+
+void vtkRayTracedSphereRepresentation::SetOrientation(double x, double y, double z)
+{
+  this->Actor->SetOrientation(x, y, z);
+}
+
+void vtkRayTracedSphereRepresentation::SetOrigin(double x, double y, double z)
+{
+  this->Actor->SetOrigin(x, y, z);
+}
+
+void vtkRayTracedSphereRepresentation::SetPickable(int pickable)
+{
+  this->Actor->SetPickable(pickable);
+}
+
+void vtkRayTracedSphereRepresentation::SetPosition(double x, double y, double z)
+{
+  this->Actor->SetPosition(x, y, z);
+}
+
+void vtkRayTracedSphereRepresentation::SetScale(double x, double y, double z)
+{
+  this->Actor->SetScale(x, y, z);
+}
+
+void vtkRayTracedSphereRepresentation::SetAmbient(double coefficient)
+{
+  this->Actor->GetProperty()->SetAmbient(coefficient);
+}
+
+void vtkRayTracedSphereRepresentation::SetAmbientColor(double r, double g, double b)
+{
+  this->Actor->GetProperty()->SetAmbientColor(r, g, b);
+}
+
+void vtkRayTracedSphereRepresentation::SetDiffuse(double coefficient)
+{
+  this->Actor->GetProperty()->SetDiffuse(coefficient);
+}
+
+void vtkRayTracedSphereRepresentation::SetDiffuseColor(double r, double g, double b)
+{
+  this->Actor->GetProperty()->SetDiffuseColor(r, g, b);
+}
+
+void vtkRayTracedSphereRepresentation::SetSpecular(double coefficient)
+{
+  this->Actor->GetProperty()->SetSpecular(coefficient);
+}
+
+void vtkRayTracedSphereRepresentation::SetSpecularColor(double r, double g, double b)
+{
+  this->Actor->GetProperty()->SetSpecularColor(r, g, b);
+}
+
+void vtkRayTracedSphereRepresentation::SetSpecularPower(double power)
+{
+  this->Actor->GetProperty()->SetSpecularPower(power);
+}
+
+void vtkRayTracedSphereRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Mapper:\n";
+  this->Mapper->PrintSelf(os, indent.GetNextIndent());
+}

@@ -1,23 +1,101 @@
 // SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkRayTracedSphereRepresentation
+ * @brief Shows the points of any data set as ray-traced spheres in a render view.
+ *
+ * The points of all blocks are shown together; textures that were baked onto the blocks stay with
+ * their particles. Colour, light and shadows are those of vtkRayTracedSphereMapper, which documents
+ * the parameters. Spheres are opaque: opacity is not used.
+ */
 #ifndef vtkRayTracedSphereRepresentation_h
 #define vtkRayTracedSphereRepresentation_h
 
 #include "ParticleOcclusionRepresentationsModule.h"
+#include "vtkNew.h"
 #include "vtkPVDataRepresentation.h"
+#include "vtkSmartPointer.h"
 
-class PARTICLEOCCLUSIONREPRESENTATIONS_EXPORT vtkRayTracedSphereRepresentation : public vtkPVDataRepresentation
+class vtkActor;
+class vtkImageData;
+class vtkPolyData;
+class vtkRayTracedSphereMapper;
+class vtkScalarsToColors;
+
+class PARTICLEOCCLUSIONREPRESENTATIONS_EXPORT vtkRayTracedSphereRepresentation
+  : public vtkPVDataRepresentation
 {
 public:
   static vtkRayTracedSphereRepresentation* New();
   vtkTypeMacro(vtkRayTracedSphereRepresentation, vtkPVDataRepresentation);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  int ProcessViewRequest(
+    vtkInformationRequestKey* request, vtkInformation* inInfo, vtkInformation* outInfo) override;
+  void SetVisibility(bool visible) override;
+
+  ///@{
+  /// Forwarded to vtkRayTracedSphereMapper.
+  void SetRadiusArray(const char* name);
+  void SetRadiusScale(double scale);
+  void SetConstantRadius(double radius);
+  void SetShadingMode(int mode);
+  void SetOcclusionOnDiffuse(bool on);
+  void SetShadows(bool on);
+  void SetLookupTable(vtkScalarsToColors* table);
+  vtkImageData* GetLayers();
+  vtkIdType GetNumberOfSpheres();
+  vtkIdType GetNumberOfRays();
+  vtkIdType GetNumberOfShadowRays();
+  vtkIdType GetNumberOfSkippedTiles();
+  vtkIdType GetNumberOfSkippedShadowRays();
+  double GetTraceSeconds();
+  double GetShadowSeconds();
+  double GetShadeSeconds();
+  ///@}
+
+  /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
+  void SetMapScalars(int map);
+
+  ///@{
+  /// Forwarded to the actor.
+  void SetOrientation(double x, double y, double z);
+  void SetOrigin(double x, double y, double z);
+  void SetPickable(int pickable);
+  void SetPosition(double x, double y, double z);
+  void SetScale(double x, double y, double z);
+  ///@}
+
+  ///@{
+  /// Forwarded to the actor's property.
+  void SetAmbient(double coefficient);
+  void SetAmbientColor(double r, double g, double b);
+  void SetDiffuse(double coefficient);
+  void SetDiffuseColor(double r, double g, double b);
+  void SetSpecular(double coefficient);
+  void SetSpecularColor(double r, double g, double b);
+  void SetSpecularPower(double power);
+  ///@}
 
 protected:
-  vtkRayTracedSphereRepresentation() = default;
-  ~vtkRayTracedSphereRepresentation() override = default;
+  vtkRayTracedSphereRepresentation();
+  ~vtkRayTracedSphereRepresentation() override;
+
+  bool AddToView(vtkView* view) override;
+  bool RemoveFromView(vtkView* view) override;
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
 
 private:
   vtkRayTracedSphereRepresentation(const vtkRayTracedSphereRepresentation&) = delete;
   void operator=(const vtkRayTracedSphereRepresentation&) = delete;
+
+  void ProvideData(vtkInformation* inInfo);
+  void UpdateColoring();
+
+  vtkNew<vtkActor> Actor;
+  vtkNew<vtkRayTracedSphereMapper> Mapper;
+  vtkSmartPointer<vtkPolyData> Particles;
 };
 
 #endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_BakedTextures_h
+#define po_BakedTextures_h
+
+// Baked occlusion of a data set, checked and made ready for the renderer; the names of the arrays
+// are in OcclusionParameters.h.
+
+#include "OcclusionTextures.h"
+#include "ParticleOcclusionFiltersModule.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkPointSet;
+class vtkPolyData;
+
+namespace po
+{
+/// Textures together with the arrays that they refer to.
+struct BakedTextures
+{
+  OcclusionTextures textures;
+  vtkSmartPointer<vtkDataArray> table; ///< uint8 or float32, one tuple a texture
+  vtkSmartPointer<vtkDataArray> rows;  ///< int32, one value a point
+  vtkSmartPointer<vtkDataArray> means; ///< float32, one value a point, or null
+};
+
+/// The baked occlusion of `points`. Data without any of the arrays give empty textures and no
+/// warning; with an array that is missing or wrong, `warning` names it and the textures are empty.
+[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT BakedTextures readBakedTextures(
+  vtkPointSet& points, std::string& warning);
+
+/// One poly data, without cells, of the points of all blocks. Point arrays that are not in all
+/// blocks are dropped, as vtkAppendPolyData does.
+///
+/// Texture tables are put one after the other, and the points' rows follow. Tables of one encoding
+/// and maximum are copied; where maxima or encodings differ they are decoded to float32. A block
+/// without textures gets row -1. Where the resolutions differ, or a block's arrays are wrong, there
+/// are no textures in the result, and `warning` says why.
+[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT vtkSmartPointer<vtkPolyData> mergeParticles(
+  const std::vector<vtkPointSet*>& blocks, std::string& warning);
+}
+
+#endif

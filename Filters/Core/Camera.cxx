@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Camera.h"
+
+#include <cmath>
+#include <limits>
+
+namespace po
+{
+namespace
+{
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+Vec3d row(const Matrix4& a, std::size_t i)
+{
+  return { a[4 * i], a[4 * i + 1], a[4 * i + 2] };
+}
+
+Vec3d cross(Vec3d a, Vec3d b)
+{
+  return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+double homogeneous(const Matrix4& a, std::size_t i, Vec3d p)
+{
+  return dot(row(a, i), p) + a[4 * i + 3];
+}
+
+/// The point e with a e = alpha, b e = beta, c e = gamma (Cramer's rule).
+Vec3d meet(Vec3d a, double alpha, Vec3d b, double beta, Vec3d c, double gamma)
+{
+  const double determinant = dot(a, cross(b, c));
+  return (1 / determinant) * (alpha * cross(b, c) + beta * cross(c, a) + gamma * cross(a, b));
+}
+
+WindowFunction<Vec3d> transformPoints(const Matrix4& a, const WindowFunction<Vec3d>& f)
+{
+  return { transformPoint(a, f.base), transformVector(a, f.dx), transformVector(a, f.dy) };
+}
+
+WindowFunction<Vec3d> transformVectors(const Matrix4& a, const WindowFunction<Vec3d>& f)
+{
+  return { transformVector(a, f.base), transformVector(a, f.dx), transformVector(a, f.dy) };
+}
+
+bool isFinite(const Matrix4& a)
+{
+  double sum = 0;
+  for (const double value : a)
+  {
+    sum += std::abs(value);
+  }
+  return std::isfinite(sum);
+}
+}
+
+Matrix4 multiply(const Matrix4& a, const Matrix4& b)
+{
+  Matrix4 product{};
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    for (std::size_t j = 0; j < 4; ++j)
+    {
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        product[4 * i + j] += a[4 * i + k] * b[4 * k + j];
+      }
+    }
+  }
+  return product;
+}
+
+Vec3d transformPoint(const Matrix4& a, Vec3d p)
+{
+  return { homogeneous(a, 0, p), homogeneous(a, 1, p), homogeneous(a, 2, p) };
+}
+
+Vec3d transformVector(const Matrix4& a, Vec3d v)
+{
+  return { dot(row(a, 0), v), dot(row(a, 1), v), dot(row(a, 2), v) };
+}
+
+Vec3d transformTransposed(const Matrix4& a, Vec3d v)
+{
+  return v.x * row(a, 0) + v.y * row(a, 1) + v.z * row(a, 2);
+}
+
+std::optional<Matrix4> invertAffine(const Matrix4& a)
+{
+  const Vec3d x = row(a, 0), y = row(a, 1), z = row(a, 2);
+  const double determinant = dot(x, cross(y, z));
+  const Vec3d c0 = (1 / determinant) * cross(y, z);
+  const Vec3d c1 = (1 / determinant) * cross(z, x);
+  const Vec3d c2 = (1 / determinant) * cross(x, y);
+  Matrix4 inverse{ c0.x, c1.x, c2.x, 0, c0.y, c1.y, c2.y, 0, c0.z, c1.z, c2.z, 0, 0, 0, 0, 1 };
+  const Vec3d offset = transformVector(inverse, { a[3], a[7], a[11] });
+  inverse[3] = -offset.x;
+  inverse[7] = -offset.y;
+  inverse[11] = -offset.z;
+  return isFinite(a) && isFinite(inverse) ? std::optional(inverse) : std::nullopt;
+}
+
+std::optional<PrimaryRays> PrimaryRays::make(const Camera& camera, const Matrix4& localToWorld)
+{
+  const std::optional<Matrix4> eyeToWorld = invertAffine(camera.worldToEye);
+  const std::optional<Matrix4> worldToLocal = invertAffine(localToWorld);
+  if (!eyeToWorld || !worldToLocal || camera.width < 1 || camera.height < 1)
+  {
+    return std::nullopt;
+  }
+  PrimaryRays rays;
+  rays.width_ = camera.width;
+  rays.height_ = camera.height;
+  rays.localToWorld_ = localToWorld;
+  rays.worldToLocal_ = *worldToLocal;
+  rays.localToClip_ = multiply(camera.eyeToClip, multiply(camera.worldToEye, localToWorld));
+  rays.setEyeRays(camera.eyeToClip);
+  rays.worldOrigin_ = transformPoints(*eyeToWorld, rays.eyeOrigin_);
+  rays.worldDirection_ = transformVectors(*eyeToWorld, rays.eyeDirection_);
+  rays.localOrigin_ = transformPoints(*worldToLocal, rays.worldOrigin_);
+  rays.localDirection_ = transformVectors(*worldToLocal, rays.worldDirection_);
+  return rays;
+}
+
+void PrimaryRays::setEyeRays(const Matrix4& p)
+{
+  const Vec3d p0 = row(p, 0), p1 = row(p, 1), p2 = row(p, 2), p3 = row(p, 3);
+  const bool perspective = dot(p3, p3) > 0;
+
+  // Ahead is where w grows (perspective) or z grows (parallel).
+  const Vec3d axis = cross(p0, p1);
+  const double sign = dot(perspective ? p3 : p2, axis) < 0 ? -1 : 1;
+  eyeDirection_ = { sign * axis, sign * cross(p1, p3), sign * cross(p3, p0) };
+  if (perspective)
+  {
+    eyeOrigin_ = { meet(p0, -p[3], p1, -p[7], p3, -p[15]), {}, {} };
+  }
+  else
+  {
+    eyeOrigin_ = { meet(p0, -p[3], p1, -p[7], axis, 0), meet(p0, p[15], p1, 0, axis, 0),
+      meet(p0, 0, p1, p[15], axis, 0) };
+  }
+  originZ_ = { homogeneous(p, 2, eyeOrigin_.base), dot(p2, eyeOrigin_.dx), dot(p2, eyeOrigin_.dy) };
+  originW_ = { homogeneous(p, 3, eyeOrigin_.base), dot(p3, eyeOrigin_.dx), dot(p3, eyeOrigin_.dy) };
+  directionZ_ = { dot(p2, eyeDirection_.base), dot(p2, eyeDirection_.dx),
+    dot(p2, eyeDirection_.dy) };
+  directionW_ = { dot(p3, eyeDirection_.base), dot(p3, eyeDirection_.dx),
+    dot(p3, eyeDirection_.dy) };
+}
+
+PrimaryRay PrimaryRays::at(double windowX, double windowY) const
+{
+  const double x = clipX(windowX), y = clipY(windowY);
+  const Vec3d direction = localDirection_.at(x, y);
+  const double localLength = length(direction);
+  const double worldLength = length(worldDirection_.at(x, y));
+  const double z = originZ_.at(x, y), w = originW_.at(x, y);
+  const double dz = directionZ_.at(x, y), dw = directionW_.at(x, y);
+  // z = -w on the near plane, z = w on the far one; both are linear along the ray.
+  const double nearest = dz + dw > 0 ? -(z + w) / (dz + dw) : -Infinity;
+  const double farthest = dw - dz < 0 ? -(w - z) / (dw - dz) : Infinity;
+  return { localOrigin_.at(x, y), (1 / localLength) * direction, nearest * localLength,
+    farthest * localLength, worldLength / localLength };
+}
+
+Vec3d PrimaryRays::worldDirection(double x, double y) const
+{
+  return normalized(worldDirection_.at(clipX(x), clipY(y)));
+}
+
+Vec3d PrimaryRays::worldPoint(double x, double y, double t) const
+{
+  return worldOrigin_.at(clipX(x), clipY(y)) + t * worldDirection(x, y);
+}
+
+double PrimaryRays::windowDepth(double windowX, double windowY, double t) const
+{
+  const double x = clipX(windowX), y = clipY(windowY);
+  const double s = t / length(worldDirection_.at(x, y));
+  const double z = originZ_.at(x, y) + s * directionZ_.at(x, y);
+  const double w = originW_.at(x, y) + s * directionW_.at(x, y);
+  return 0.5 * (z / w) + 0.5;
+}
+
+bool PrimaryRays::mayShowBox(
+  Vec3d low, Vec3d high, double x0, double y0, double x1, double y1) const
+{
+  // The rectangle's pyramid is an intersection of four half-spaces of clip space, X0 w <= x <= X1 w
+  // and Y0 w <= y <= Y1 w. A box outside of one of them cannot be seen.
+  int outside[4] = {};
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vec3d p{ (corner & 1) ? high.x : low.x, (corner & 2) ? high.y : low.y,
+      (corner & 4) ? high.z : low.z };
+    const double x = homogeneous(localToClip_, 0, p);
+    const double y = homogeneous(localToClip_, 1, p);
+    const double w = homogeneous(localToClip_, 3, p);
+    outside[0] += x < clipX(x0) * w;
+    outside[1] += x > clipX(x1) * w;
+    outside[2] += y < clipY(y0) * w;
+    outside[3] += y > clipY(y1) * w;
+  }
+  return outside[0] < 8 && outside[1] < 8 && outside[2] < 8 && outside[3] < 8;
+}
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_Camera_h
+#define po_Camera_h
+
+#include "Vec3.h"
+
+#include <array>
+#include <optional>
+
+namespace po
+{
+/// 4 x 4 matrix, row-major; it acts on column vectors.
+using Matrix4 = std::array<double, 16>;
+
+[[nodiscard]] Matrix4 multiply(const Matrix4& a, const Matrix4& b);
+
+/// a (p, 1) without its fourth component.
+[[nodiscard]] Vec3d transformPoint(const Matrix4& a, Vec3d p);
+
+/// a (v, 0) without its fourth component.
+[[nodiscard]] Vec3d transformVector(const Matrix4& a, Vec3d v);
+
+/// The transpose of the linear part of a times v: with a the inverse of a matrix this is how
+/// normals follow that matrix.
+[[nodiscard]] Vec3d transformTransposed(const Matrix4& a, Vec3d v);
+
+/// Inverse of a matrix whose last row is (0, 0, 0, 1); nothing if it is singular or not finite.
+[[nodiscard]] std::optional<Matrix4> invertAffine(const Matrix4& a);
+
+/// What OpenGL knows about a view: perspective or parallel, on-axis or not, a tile or all of it.
+struct Camera
+{
+  Matrix4 worldToEye; ///< model-view matrix, affine
+  Matrix4 eyeToClip;  ///< projection matrix; clip space is -w <= x, y, z <= w
+  int width = 0;      ///< pixels of the viewport
+  int height = 0;
+};
+
+/// A value that depends linearly on the position in the window.
+template <typename T>
+struct WindowFunction
+{
+  T base, dx, dy;
+
+  [[nodiscard]] constexpr T at(double x, double y) const { return base + x * dx + y * dy; }
+};
+
+/// The eye ray of one pixel, in local coordinates: origin + s direction.
+struct PrimaryRay
+{
+  Vec3d origin;         ///< the eye, or the point of the eye plane (parallel projection)
+  Vec3d direction;      ///< unit vector
+  double nearest;       ///< s of the near plane
+  double farthest;      ///< s of the far plane
+  double worldPerLocal; ///< t in world units = s * worldPerLocal
+};
+
+/// Makes eye rays through pixel centres, in double precision from the matrices to the ray.
+///
+/// Pixel (x, y) counts from the lower left corner. A ray is where two planes of eye space meet,
+/// (P0 - X P3) e = 0 and (P1 - Y P3) e = 0 with the rows Pi of the projection and X, Y the pixel in
+/// [-1, 1]; so the near and far planes, however far apart, cost no digits. Its direction, the cross
+/// product of both normals, is linear in X and Y.
+class PrimaryRays
+{
+public:
+  /// @param localToWorld affine, any scales and shears
+  /// Nothing is returned for a singular matrix or an empty viewport.
+  [[nodiscard]] static std::optional<PrimaryRays> make(
+    const Camera& camera, const Matrix4& localToWorld);
+
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int height() const { return height_; }
+
+  /// The ray through window position (x, y); pixel i has its centre at i + 1/2.
+  [[nodiscard]] PrimaryRay at(double x, double y) const;
+
+  /// Unit vector of the same ray in world space.
+  [[nodiscard]] Vec3d worldDirection(double x, double y) const;
+
+  /// Point at distance t (world units) on the same ray in world space.
+  [[nodiscard]] Vec3d worldPoint(double x, double y, double t) const;
+
+  /// Depth in the window, 0 at the near and 1 at the far plane, of the point at distance t.
+  [[nodiscard]] double windowDepth(double x, double y, double t) const;
+
+  /// Can any point of the box be seen through the rectangle of the window? May err towards yes.
+  [[nodiscard]] bool mayShowBox(
+    Vec3d low, Vec3d high, double x0, double y0, double x1, double y1) const;
+
+  [[nodiscard]] const Matrix4& localToWorld() const { return localToWorld_; }
+  [[nodiscard]] const Matrix4& worldToLocal() const { return worldToLocal_; }
+
+private:
+  PrimaryRays() = default;
+  void setEyeRays(const Matrix4& eyeToClip);
+
+  /// Position in the window, in pixels, to [-1, 1].
+  [[nodiscard]] double clipX(double x) const { return 2 * x / width_ - 1; }
+  [[nodiscard]] double clipY(double y) const { return 2 * y / height_ - 1; }
+
+  int width_ = 0, height_ = 0;
+  Matrix4 localToWorld_{}, worldToLocal_{}, localToClip_{};
+  // Eye rays with directions of one common, arbitrary length scale.
+  WindowFunction<Vec3d> eyeOrigin_, eyeDirection_;
+  WindowFunction<Vec3d> worldOrigin_, worldDirection_;
+  WindowFunction<Vec3d> localOrigin_, localDirection_;
+  // Clip coordinates z and w at the origin of a ray, and their growth along its direction.
+  WindowFunction<double> originZ_, originW_, directionZ_, directionW_;
+};
+}
+
+#endif

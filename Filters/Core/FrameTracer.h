@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_FrameTracer_h
+#define po_FrameTracer_h
+
+#include "Camera.h"
+#include "SphereScene.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace po
+{
+/// What each pixel of a window sees, row by row from the lower left corner.
+struct TracedFrame
+{
+  int width = 0;
+  int height = 0;
+  std::vector<double> t;             ///< distance along the ray in world units, +infinity: nothing
+  std::vector<std::uint32_t> sphere; ///< index into the scene's spheres, or SphereScene::None
+  std::vector<Vec3f> normal;         ///< local outward unit normal of a hit
+
+  [[nodiscard]] std::size_t pixels() const { return sphere.size(); }
+};
+
+/// What a frame cost.
+struct TraceCounters
+{
+  std::size_t rays = 0;         ///< Embree rays, continued and repeated ones included
+  std::size_t hits = 0;         ///< pixels that show a sphere
+  std::size_t tiles = 0;        ///< tiles in the window
+  std::size_t tilesSkipped = 0; ///< tiles that cannot show any sphere
+};
+
+/// Traces one ray a pixel, through its centre, in parallel; the result does not depend on threads.
+///
+/// Embree finds candidates in single precision, from a start close to the spheres; each candidate
+/// is then intersected in double precision, so that t and normal are right to double rounding for
+/// any distance of the eye. A sphere that the near plane cuts is not drawn for the rays that start
+/// inside of it: they go on to what is behind, so that a flight through a cloud stays clear.
+/// Spheres beyond the far plane are not seen.
+TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, TracedFrame& frame);
+}
+
+#endif

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SphereRenderer.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace po
+{
+namespace
+{
+/// Writes the seconds of its own life to a variable.
+class Stopwatch
+{
+public:
+  explicit Stopwatch(double& seconds)
+    : seconds_(seconds)
+  {
+  }
+  ~Stopwatch()
+  {
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+bool sameView(const Camera& a, const Camera& b)
+{
+  return a.worldToEye == b.worldToEye && a.eyeToClip == b.eyeToClip && a.width == b.width &&
+    a.height == b.height;
+}
+
+bool same(Vec3d a, Vec3d b)
+{
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/// Do both lights reach the same points? Colours do not matter, nor how fast the light declines.
+bool sameReach(const Light& a, const Light& b)
+{
+  const bool sameCone = a.coneAngle == b.coneAngle && same(a.direction, b.direction);
+  return a.positional == b.positional &&
+    (a.positional ? sameCone && same(a.position, b.position) : same(a.direction, b.direction));
+}
+
+Matrix4 localToModel(const SphereCloud& cloud)
+{
+  const double s = cloud.scale;
+  const Vec3d o = cloud.origin;
+  return { s, 0, 0, o.x, 0, s, 0, o.y, 0, 0, s, o.z, 0, 0, 0, 1 };
+}
+}
+
+void SphereRenderer::setCloud(SphereCloud cloud)
+{
+  cloud_ = std::move(cloud);
+  scene_.reset();
+  frameIsCurrent_ = false;
+}
+
+void SphereRenderer::buildScene()
+{
+  const Stopwatch watch(statistics_.buildSeconds);
+  scene_ = std::make_unique<SphereScene>(cloud_.spheres);
+}
+
+bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)
+{
+  if (frameIsCurrent_ && sameView(camera, camera_) && modelToWorld == modelToWorld_)
+  {
+    return true;
+  }
+  frameIsCurrent_ = false;
+  shadowLights_.clear();
+  rays_ = PrimaryRays::make(camera, multiply(modelToWorld, localToModel(cloud_)));
+  if (!rays_)
+  {
+    return false;
+  }
+  if (!scene_)
+  {
+    buildScene();
+  }
+  {
+    const Stopwatch watch(statistics_.traceSeconds);
+    statistics_.trace = traceFrame(*scene_, *rays_, frame_);
+    computeWindowDepth();
+  }
+  ++statistics_.framesTraced;
+  camera_ = camera;
+  modelToWorld_ = modelToWorld;
+  frameIsCurrent_ = true;
+  return true;
+}
+
+void SphereRenderer::computeWindowDepth()
+{
+  constexpr float Background = 2;
+  windowDepth_.resize(frame_.pixels());
+  tbb::parallel_for(tbb::blocked_range<int>(0, frame_.height),
+    [this](const tbb::blocked_range<int>& rows)
+    {
+      for (int y = rows.begin(); y < rows.end(); ++y)
+      {
+        std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width);
+        for (int x = 0; x < frame_.width; ++x, ++pixel)
+        {
+          const bool hit = frame_.sphere[pixel] != SphereScene::None;
+          windowDepth_[pixel] = hit
+            ? static_cast<float>(
+                std::clamp(rays_->windowDepth(x + 0.5, y + 0.5, frame_.t[pixel]), 0.0, 1.0))
+            : Background;
+        }
+      }
+    });
+}
+
+void SphereRenderer::castShadows(const std::vector<Light>& lights)
+{
+  const Stopwatch watch(statistics_.shadowSeconds);
+  statistics_.shadows = {};
+  shadows_.lit.resize(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i)
+  {
+    if (i < shadowLights_.size() && sameReach(lights[i], shadowLights_[i]))
+    {
+      continue;
+    }
+    const ShadowCounters counters =
+      traceShadows(*scene_, *rays_, frame_, lights[i], shadows_.lit[i]);
+    statistics_.shadows.rays += counters.rays;
+    statistics_.shadows.skipped += counters.skipped;
+    ++statistics_.shadowsTraced;
+  }
+  shadowLights_ = lights;
+}
+
+void SphereRenderer::shade(const Material& material, const OcclusionTextures& textures,
+  const std::vector<Light>& lights, bool shadows)
+{
+  const bool direct = material.mode != ShadingMode::AmbientOcclusion && material.lighting &&
+    (material.diffuse > 0 || material.specular > 0);
+  if (shadows && direct)
+  {
+    castShadows(lights);
+  }
+  else
+  {
+    shadowLights_.clear();
+    shadows_.lit.clear();
+  }
+  const Stopwatch watch(statistics_.shadeSeconds);
+  shadeFrame({ *rays_, frame_, cloud_.sourceIds, textures, lights, shadows_, material }, rgba_);
+}
+}
