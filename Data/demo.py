@@ -4,6 +4,7 @@ them in four ways, and leaves pictures and files in demo-output/.
 
 Run it by `bash Data/demo.sh`, which builds the plugin and starts a virtual display.
 """
+import glob
 import os
 
 from paraview.simple import *
@@ -18,8 +19,12 @@ def output(name):
 
 
 def load_plugin():
-    plugin = os.environ["PARTICLEOCCLUSION_PLUGIN"]
-    LoadPlugin(plugin, remote=False, ns=globals())
+    """Loads what `cmake --build` left in build/, or the plugin that the environment names."""
+    built = glob.glob(os.path.join(ROOT, "build", "lib*", "**", "ParticleOcclusion.so"), recursive=True)
+    plugin = os.environ.get("PARTICLEOCCLUSION_PLUGIN") or (built and built[0])
+    if not plugin:
+        raise SystemExit("The plugin is not built: run `bash Data/demo.sh`.")
+    LoadPlugin(plugin, ns=globals())
 
 
 def bake(particles):
@@ -69,7 +74,8 @@ def aim_camera(view):
     camera.Elevation(-52)
     camera.Azimuth(18)
     camera.OrthogonalizeViewUp()
-    view.ResetCamera(True, 0.92)
+    ResetCamera(view)
+    camera.Zoom(1.75)
 
 
 def colour_by_damage(display, view):
