@@ -95,8 +95,9 @@ class Representation(unittest.TestCase):
         self.assertEqual(display.Shadows, 0)
         self.assertGreater(self.covered(), 0.1)
         display.SMProxy.UpdatePropertyInformation()
-        self.assertEqual(display.NumberOfSpheres, 64)
-        self.assertGreater(display.NumberOfRays, 1000)
+        counter = lambda name: display.SMProxy.GetProperty(name).GetElement(0)
+        self.assertEqual(counter("NumberOfSpheres"), 64)
+        self.assertGreater(counter("NumberOfRays"), 1000)
 
     def test_bounds_include_radii(self):
         particles = programmable("""
@@ -112,7 +113,7 @@ self.GetPolyDataOutput().GetPointData().AddArray(radii)
         simple.ResetCamera(self.view)
         image = picture(self.view)
         self.assertEqual(image[0].max(), 0, "the sphere does not touch the window's edge")
-        self.assertGreater((image.max(axis=2) > 0).mean(), 0.2)
+        self.assertGreater((image.max(axis=2) > 0).mean(), 0.15)
 
     def test_radius_parameters(self):
         display = self.show(programmable(POLY_DATA))
@@ -184,9 +185,10 @@ self.GetPolyDataOutput().GetPointData().AddArray(radii)
         simple.Render(self.view)
         simple.SelectSurfacePoints(Rectangle=[118, 88, 122, 92], View=self.view)
         selection = simple.GetActiveSource().GetSelectionInput(0)
-        ids = list(selection.IDs)[1::2]
+        ids = list(selection.Input[0].IDs)[1::2]
         self.assertTrue(ids)
-        self.assertTrue(all(0 <= i < 64 for i in ids))
+        self.assertGreaterEqual(min(ids), 0)
+        self.assertLess(max(ids), 64)
 
     def test_state_is_restored(self):
         display = self.show(programmable(POLY_DATA))
@@ -198,6 +200,7 @@ self.GetPolyDataOutput().GetPointData().AddArray(radii)
             simple.SaveState(name)
             simple.LoadState(name)
             view = next(v for v in simple.GetRenderViews() if v != self.view)
+            view.UseFXAA = 0  # a setting of the application, not of the state
             self.assertLess(differing(picture(view), expected), 0.001)
             display = next(r for r in view.Representations if hasattr(r, "RadiusScale"))
             self.assertEqual(display.Representation, TYPE)
