@@ -4,10 +4,10 @@
  * Synthetic particle data for tests and benchmarks: five families of spheres at any size.
  *
  * Every family gives exactly the count that is asked for, equal radii, finite coordinates (lengths
- * are in spacings of the lattice, and a gas particle has the diameter 1) and, for one seed, the same
- * bits on every run. The families differ in what they ask of an occlusion baker: from "nearly all is
- * buried" (Pack, Overlap) over "all is near a surface" (Shell, Foam) to "nearly all sees nearly all"
- * (Gas).
+ * are in spacings of the lattice, and a gas particle has the diameter 1) and, for one seed, the
+ * same bits on every run. The families differ in what they ask of an occlusion baker: from "nearly
+ * all is buried" (Pack, Overlap) over "all is near a surface" (Shell, Foam) to "nearly all sees
+ * nearly all" (Gas).
  */
 #pragma once
 
@@ -27,24 +27,25 @@ enum class SyntheticFamily
   /// radius 1/sqrt(2) rounded down, so that 12 neighbours touch to one rounding and none overlaps.
   Pack,
 
-  /// A tube along z as the material point method fills one: simple cubic lattice of spacing 1, every
-  /// coordinate moved by up to OverlapJitter, OverlapRadius > 1/2. The bore is OverlapBore times the
-  /// outer radius, the length twice the outer radius; the last layer may be incomplete.
+  /// A tube along z as the material point method fills one: simple cubic lattice of spacing 1,
+  /// every coordinate moved by up to OverlapJitter, OverlapRadius > 1/2. The bore is OverlapBore
+  /// times the outer radius, the length twice the outer radius; the last layer may be incomplete.
   Overlap,
 
   /// Independent uniform positions in a cube, not periodic, radius 1/2, GasVolumeFraction of the
   /// cube's volume. As in any ideal gas, some spheres overlap: about 8 * GasVolumeFraction of them.
   Gas,
 
-  /// A thin spherical shell of touching spheres, radius 1/2, thickness ShellThickness of its radius,
-  /// torn by an explosion at the origin into ShellFragments pieces that fly and tumble each at its
-  /// own speed, amid a dust of single particles (a share ShellDust of all).
+  /// A thin spherical shell of touching spheres, radius 1/2, thickness ShellThickness of its
+  /// radius, torn by an explosion at the origin into ShellFragments pieces that fly and tumble each
+  /// at its own speed, amid a dust of single particles (a share ShellDust of all).
   Shell,
 
   /// A cube of open-cell foam: spheres of radius 1/2 touching on a simple cubic lattice, as from a
-  /// segmented tomogram, along the struts (edges) of a Voronoi diagram. The seeds of its cells are a
-  /// body-centred cubic lattice of edge FoamCubeEdge, each coordinate moved by up to FoamJitter of
-  /// that edge. About FoamRelativeDensity of the lattice sites hold a sphere, whatever the count.
+  /// segmented tomogram, along the struts (edges) of a Voronoi diagram. The seeds of its cells are
+  /// a body-centred cubic lattice of edge FoamCubeEdge, each coordinate moved by up to FoamJitter
+  /// of that edge. About FoamRelativeDensity of the lattice sites hold a sphere, whatever the
+  /// count.
   Foam
 };
 
@@ -71,8 +72,8 @@ struct SyntheticSpheres
 [[nodiscard]] std::optional<SyntheticFamily> SyntheticFamilyFromName(std::string_view name);
 
 /// `count` spheres of a family, 0 to LargestSyntheticCount; Pack has nothing random and ignores the
-/// seed. Throws std::length_error for a larger count and std::bad_alloc when memory does not suffice
-/// (Foam needs most: about 100 bytes a sphere).
+/// seed. Throws std::length_error for a larger count and std::bad_alloc when memory does not
+/// suffice (Foam needs most: about 100 bytes a sphere).
 [[nodiscard]] SyntheticSpheres MakeSyntheticSpheres(
   SyntheticFamily family, std::size_t count, std::uint64_t seed);
 

@@ -4,6 +4,7 @@
 #include <Iex.h>
 #include <openexr.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -61,7 +62,11 @@ void KeepMessage(exr_const_context_t context, exr_result_t, const char* message)
   void* kept = nullptr;
   if (exr_get_user_data(context, &kept) == EXR_ERR_SUCCESS && kept)
   {
-    *static_cast<std::string*>(kept) = message;
+    auto& text = *static_cast<std::string*>(kept);
+    text = message;
+    // Names from a damaged file may hold anything.
+    std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   }
 }
 
@@ -71,9 +76,10 @@ struct ContextCloser
 };
 using ContextPointer = std::unique_ptr<std::remove_pointer_t<exr_context_t>, ContextCloser>;
 
-ContextPointer OpenHeaders(const std::string& fileName, const ExrLimits& limits)
+// `message` must outlive the result.
+ContextPointer OpenHeaders(
+  const std::string& fileName, const ExrLimits& limits, std::string& message)
 {
-  std::string message;
   exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
   options.error_handler_fn = KeepMessage;
   options.user_data = &message;
@@ -83,14 +89,16 @@ ContextPointer OpenHeaders(const std::string& fileName, const ExrLimits& limits)
   options.max_tile_height = limits.TileSide;
   exr_context_t context = nullptr;
   const exr_result_t result = exr_start_read(&context, fileName.c_str(), &options);
-  if (result != EXR_ERR_SUCCESS)
+  ContextPointer opened(result == EXR_ERR_SUCCESS ? context : nullptr);
+  // An attribute that is damaged is reported but does not make the C reader fail.
+  if (!opened || !message.empty())
   {
     RefuseExr(fileName,
       "its header is damaged or asks for more than is allowed (" +
         (message.empty() ? exr_get_default_error_message(result) : message) +
         "); write the file again.");
   }
-  return ContextPointer(context);
+  return opened;
 }
 
 void CheckPart(const std::string& fileName, exr_context_t context, int part,
@@ -156,7 +164,8 @@ void CheckExrFile(const std::string& fileName, const ExrLimits& limits)
 {
   const std::uintmax_t fileSize = SizeOfRegularFile(fileName);
   RequireMagicNumber(fileName);
-  const ContextPointer context = OpenHeaders(fileName, limits);
+  std::string message;
+  const ContextPointer context = OpenHeaders(fileName, limits, message);
   int parts = 0;
   exr_get_count(context.get(), &parts);
   for (int part = 0; part < parts; ++part)

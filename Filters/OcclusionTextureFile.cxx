@@ -38,6 +38,10 @@ constexpr std::int64_t MaximumCount = std::int64_t{ 1 } << 31;
 // The widest atlas is ceil(sqrt(2^31)) tiles; its pixels are checked against the file's size.
 constexpr ExrLimits Limits = { 1 << 26, 1 << 26, MaximumResolution, std::int64_t{ 1 } << 40 };
 
+// ZIP makes the smallest files of the lossless kinds. Measured with 20,000 textures of 16 x 16 and
+// 49 samples a texel, in percent of the bare floats and seconds to write and to read: NONE 103,
+// .04, .03; RLE 102, .08, .04; ZIPS and ZIP 89, .68, .18; PIZ 103, 18, .03. At 64 x 64 ZIP comes to
+// 55 %, at 8 x 8 nothing pays. The noise of the samples is what does not compress.
 constexpr Imf::Compression TextureCompression = Imf::ZIP_COMPRESSION;
 constexpr Imf::Compression ParticleCompression = Imf::ZIP_COMPRESSION;
 

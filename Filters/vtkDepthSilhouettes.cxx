@@ -30,6 +30,20 @@ bool IsDepth(vtkDataArray* array)
     (vtkFloatArray::SafeDownCast(array) || vtkDoubleArray::SafeDownCast(array));
 }
 
+/// The active scalars if they can be depth, else "Z", else "depth".
+vtkDataArray* DefaultDepth(vtkPointData* points)
+{
+  for (vtkDataArray* array :
+    { points->GetScalars(), points->GetArray("Z"), points->GetArray("depth") })
+  {
+    if (IsDepth(array))
+    {
+      return array;
+    }
+  }
+  return nullptr;
+}
+
 vtkIdType PixelsOfSlice(const int extent[6])
 {
   return static_cast<vtkIdType>(extent[1] - extent[0] + 1) * (extent[3] - extent[2] + 1);
@@ -95,36 +109,35 @@ bool vtkDepthSilhouettes::CheckParameters()
 vtkDataArray* vtkDepthSilhouettes::FindDepth(
   vtkImageData* input, vtkInformationVector** inputVector)
 {
-  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
-  vtkInformation* choice = this->GetInputArrayInformation(0);
-  const char* chosen =
-    choice->Has(vtkDataObject::FIELD_NAME()) ? choice->Get(vtkDataObject::FIELD_NAME()) : nullptr;
-  if (!chosen && !IsDepth(array))
+  const char* chosen = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
+  if (!chosen || !*chosen) // ParaView sets an empty name where there is no choice
   {
-    for (const char* name : { "Z", "depth" })
+    vtkDataArray* array = DefaultDepth(input->GetPointData());
+    if (!array)
     {
-      array = IsDepth(array) ? array : input->GetPointData()->GetArray(name);
+      vtkErrorMacro("There is no depth array: choose a one-component float or double point array, "
+                    "or name it Z or depth.");
     }
-    association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  }
-  if (IsDepth(array) && association == vtkDataObject::FIELD_ASSOCIATION_POINTS)
-  {
     return array;
   }
-  const char* name = chosen ? chosen : (array && array->GetName() ? array->GetName() : "");
-  if (!array)
+
+  int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  vtkDataArray* array = this->GetInputArrayToProcess(0, inputVector, association);
+  if (!array || association != vtkDataObject::FIELD_ASSOCIATION_POINTS)
   {
-    vtkErrorMacro("There is no depth array"
-      << (chosen ? std::string(" named ") + chosen : std::string())
-      << " on the image's points. Choose a one-component float or double point array, or name it "
-         "Z or depth.");
+    vtkErrorMacro("The image has no point array " << chosen
+                                                  << ": choose a one-component float or double "
+                                                     "point array of depth.");
     return nullptr;
   }
-  vtkErrorMacro("Array " << name << " (" << array->GetNumberOfComponents() << " components of type "
-                         << array->GetDataTypeAsString()
-                         << ") is no depth. Choose a one-component float or double point array.");
-  return nullptr;
+  if (!IsDepth(array))
+  {
+    vtkErrorMacro("Array " << chosen << " (" << array->GetNumberOfComponents()
+                           << " components of type " << array->GetDataTypeAsString()
+                           << ") is no depth: choose a one-component float or double point array.");
+    return nullptr;
+  }
+  return array;
 }
 
 int vtkDepthSilhouettes::RequestInformation(

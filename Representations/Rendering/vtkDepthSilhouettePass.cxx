@@ -121,13 +121,14 @@ void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
   const bool lines =
     this->LineVisibility && !selecting && this->CheckParameters() && CanBeSeen(state);
   const bool tile = lines && IsTile(state);
+  const bool margins = tile && this->TileMargins;
 
-  std::string error = tile ? this->ReadDepthAroundTile(state) : std::string();
+  std::string error = margins ? this->ReadDepthAroundTile(state) : std::string();
   this->DelegatePass->Render(state);
   this->NumberOfRenderedProps += this->DelegatePass->GetNumberOfRenderedProps();
-  if (lines && !tile)
+  if (lines && !margins)
   {
-    error = this->ReadDepth(state);
+    error = this->ReadDepth(state, !tile);
   }
   if (!error.empty())
   {
@@ -135,14 +136,14 @@ void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
   }
   else if (lines)
   {
-    this->DrawLines(state, tile ? TileMargin : 0);
+    this->DrawLines(state, margins ? TileMargin : 0);
   }
 }
 
-std::string vtkDepthSilhouettePass::ReadDepth(const vtkRenderState* state)
+std::string vtkDepthSilhouettePass::ReadDepth(const vtkRenderState* state, bool whole)
 {
   return this->Internal->Painter.ReadDepth(
-    WindowOf(state), ViewportOf(state), *WindowToEyeOf(state->GetRenderer()), true);
+    WindowOf(state), ViewportOf(state), *WindowToEyeOf(state->GetRenderer()), whole);
 }
 
 std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* state)
@@ -203,6 +204,7 @@ void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Threshold: " << this->Threshold << "\n";
   os << indent << "BackgroundDepth: " << this->BackgroundDepth << "\n";
   os << indent << "LineVisibility: " << this->LineVisibility << "\n";
+  os << indent << "TileMargins: " << this->TileMargins << "\n";
   os << indent << "Color: " << this->Color[0] << ", " << this->Color[1] << ", " << this->Color[2]
      << "\n";
   os << indent << "Opacity: " << this->Opacity << "\n";

@@ -89,6 +89,18 @@ public:
   vtkGetMacro(Opacity, double);
   ///@}
 
+  ///@{
+  /**
+   * Draw the delegate a second time for each tile of a larger picture, to know the depth one pixel
+   * beyond it. Off: the border of the tile is repeated instead, and a line that falls on a seam can
+   * be missing. Needed where the delegate cannot draw a frame larger than the renderer, as with
+   * sort-last compositing. Default: on.
+   */
+  vtkSetMacro(TileMargins, bool);
+  vtkGetMacro(TileMargins, bool);
+  vtkBooleanMacro(TileMargins, bool);
+  ///@}
+
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -99,6 +111,7 @@ protected:
   double Threshold = 0.0;
   double BackgroundDepth = 0.0;
   bool LineVisibility = true;
+  bool TileMargins = true;
   double Color[3] = { 0.0, 0.0, 0.0 };
   double Opacity = 1.0;
 
@@ -107,7 +120,7 @@ private:
   void operator=(const vtkDepthSilhouettePass&) = delete;
 
   bool CheckParameters();
-  std::string ReadDepth(const vtkRenderState* state);
+  std::string ReadDepth(const vtkRenderState* state, bool whole);
   std::string ReadDepthAroundTile(const vtkRenderState* state);
   void DrawLines(const vtkRenderState* state, int margin);
 

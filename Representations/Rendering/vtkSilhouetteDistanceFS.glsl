@@ -1,5 +1,5 @@
-//VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
+//VTK::System::Dec
 
 // z-buffer to distance in world units (po::EyeDistance); BACKGROUND where nothing was drawn.
 

@@ -1,5 +1,5 @@
-//VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
+//VTK::System::Dec
 
 // Farthest distance in a block of 8 x 8 pixels; BACKGROUND where the block has nothing else.
 

@@ -1,5 +1,5 @@
-//VTK::System::Dec
 // SPDX-License-Identifier: BSD-3-Clause
+//VTK::System::Dec
 
 // Draws the pixels whose Laplacian of distance exceeds the threshold: the rule of
 // po::ResolveEdgeRule and po::DepthLaplacian, step by step.

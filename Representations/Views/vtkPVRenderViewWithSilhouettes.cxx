@@ -4,6 +4,7 @@
 #include "vtkDepthSilhouettePass.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVSynchronizedRenderer.h"
+#include "vtkProcessModule.h"
 
 vtkStandardNewMacro(vtkPVRenderViewWithSilhouettes);
 
@@ -12,6 +13,9 @@ vtkPVRenderViewWithSilhouettes::vtkPVRenderViewWithSilhouettes()
   this->SynchronizedRenderers->SetImageProcessingPass(this->Silhouettes);
   // Compositing must deliver depth as well as colour.
   this->SynchronizedRenderers->SetUseDepthBuffer(true);
+  // Composited images have the renderer's size, whatever the frame they are put into.
+  vtkProcessModule* process = vtkProcessModule::GetProcessModule();
+  this->Silhouettes->SetTileMargins(!process || process->GetNumberOfLocalPartitions() == 1);
 }
 
 vtkPVRenderViewWithSilhouettes::~vtkPVRenderViewWithSilhouettes() = default;

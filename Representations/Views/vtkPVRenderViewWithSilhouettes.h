@@ -4,8 +4,8 @@
  * @brief ParaView's render view with lines where the depth jumps.
  *
  * Draws everything that the plain render view draws, and vtkDepthSilhouettePass on top. In parallel
- * the pass runs once, on the composited image. Each property is the pass' parameter of the same
- * name without "Silhouette", with its meaning, range and default.
+ * the pass works on the composited image, without TileMargins. Each property is the pass' parameter
+ * of the same name without "Silhouette", with its meaning, range and default.
  */
 #ifndef vtkPVRenderViewWithSilhouettes_h
 #define vtkPVRenderViewWithSilhouettes_h

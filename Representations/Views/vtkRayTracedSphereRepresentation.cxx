@@ -8,16 +8,19 @@
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
+#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
 #include "vtkMatrix4x4.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkRayTracedSphereMapper.h"
+#include "vtkRenderedLayersWriter.h"
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 
@@ -234,6 +237,41 @@ void vtkRayTracedSphereRepresentation::SetMapScalars(int map)
 vtkImageData* vtkRayTracedSphereRepresentation::GetLayers()
 {
   return this->Mapper->GetLayers();
+}
+
+void vtkRayTracedSphereRepresentation::SetLayersFile(const char* name)
+{
+  this->LayersFile = name ? name : "";
+}
+
+const char* vtkRayTracedSphereRepresentation::GetLayersFile()
+{
+  return this->LayersFile.c_str();
+}
+
+void vtkRayTracedSphereRepresentation::WriteLayers()
+{
+  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
+  vtkImageData* layers = this->Mapper->GetLayers();
+  if (this->LayersFile.empty())
+  {
+    vtkErrorMacro("LayersFile is empty: name the OpenEXR file to write the layers to.");
+  }
+  else if (processes && processes->GetNumberOfProcesses() > 1)
+  {
+    vtkErrorMacro("Layers can only be written where one process draws all spheres.");
+  }
+  else if (layers->GetNumberOfPoints() == 0)
+  {
+    vtkErrorMacro("There are no layers to write: render the view first.");
+  }
+  else
+  {
+    vtkNew<vtkRenderedLayersWriter> writer; // reports its own errors
+    writer->SetInputData(layers);
+    writer->SetFileName(this->LayersFile.c_str());
+    writer->Write();
+  }
 }
 
 vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSpheres()

@@ -15,6 +15,8 @@
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h"
 
+#include <string>
+
 class vtkActor;
 class vtkImageData;
 class vtkPolyData;
@@ -52,6 +54,18 @@ public:
   double GetShadowSeconds();
   double GetShadeSeconds();
   ///@}
+
+  ///@{
+  /// OpenEXR file that WriteLayers() writes. Default: none.
+  void SetLayersFile(const char* name);
+  const char* GetLayersFile();
+  ///@}
+
+  /// Writes the layers of the last frame that was drawn to the LayersFile: RGBA, Z, AO, N and
+  /// particle id, of this representation alone, as vtkRenderedLayersWriter describes them. An error
+  /// says what is wrong if there is no file name, nothing has been drawn yet, the frame was drawn
+  /// by several processes together, or the file cannot be written.
+  void WriteLayers();
 
   /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
   void SetMapScalars(int map);
@@ -96,6 +110,7 @@ private:
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
   vtkSmartPointer<vtkPolyData> Particles;
+  std::string LayersFile;
 };
 
 #endif

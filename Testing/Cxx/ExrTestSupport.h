@@ -148,6 +148,21 @@ void ForEachDamage(const Bytes& whole, int count, const Try& attempt)
   }
 }
 
+#ifdef __linux__
+/// The most memory that this process ever had, in megabytes.
+inline long PeakMegabytes()
+{
+  rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+#else
+inline long PeakMegabytes()
+{
+  return 0;
+}
+#endif
+
 #ifndef _WIN32
 /// While alive, no file of this process can grow beyond `bytes`, as on a full disk.
 class FileSizeLimit

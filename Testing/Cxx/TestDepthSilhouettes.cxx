@@ -154,6 +154,24 @@ TEST(DepthSilhouettes, TakesTheChosenArray)
   EXPECT_EQ(Values(filter->GetOutput()), std::vector<float>(64 * 50, 0.0F));
 }
 
+TEST(DepthSilhouettes, WithoutAChoiceTakesTheActiveScalarsBeforeZ)
+{
+  const auto image = MakeImage(1);
+  AddArray<vtkDoubleArray>(image, "flat", 1);
+  image->GetPointData()->SetActiveScalars("flat");
+  for (const char* choice : { static_cast<const char*>(nullptr), "" })
+  {
+    vtkNew<vtkDepthSilhouettes> filter;
+    filter->SetInputData(image);
+    if (choice)
+    {
+      filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, choice);
+    }
+    filter->Update();
+    EXPECT_EQ(Values(filter->GetOutput()), std::vector<float>(64 * 50, 0.0F));
+  }
+}
+
 TEST(DepthSilhouettes, Errors)
 {
   const auto image = MakeImage(1);

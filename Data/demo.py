@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The main job, without a screen: bakes ambient occlusion onto particles of a real simulation, ray-traces
+them in four ways, and leaves pictures and files in demo-output/.
+
+Run it by `bash Data/demo.sh`, which builds the plugin and starts a virtual display.
+"""
+import glob
+import os
+
+from paraview.simple import *
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+OUTPUT = os.environ.get("PARTICLEOCCLUSION_DEMO_OUTPUT", os.path.join(ROOT, "demo-output"))
+SIZE = [1000, 700]
+
+
+def output(name):
+    return os.path.join(OUTPUT, name)
+
+
+def load_plugin():
+    """Loads what `cmake --build` left in build/, or the plugin that the environment names."""
+    built = glob.glob(os.path.join(ROOT, "build", "lib*", "**", "ParticleOcclusion.so"), recursive=True)
+    plugin = os.environ.get("PARTICLEOCCLUSION_PLUGIN") or (built and built[0])
+    if not plugin:
+        raise SystemExit("The plugin is not built: run `bash Data/demo.sh`.")
+    LoadPlugin(plugin, ns=globals())
+
+
+def bake(particles):
+    baked = SphereAmbientOcclusion(registrationName="Baked", Input=particles)
+    baked.UpdatePipeline()
+    baked.UpdatePropertyInformation()
+    return baked
+
+
+def make_view():
+    view = CreateView("RenderViewWithSilhouettes")
+    view.ViewSize = SIZE
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Single Color"
+    view.Background = [1, 1, 1]
+    view.UseFXAA = 0
+    view.SilhouetteVisibility = 0
+    return view
+
+
+def light_from_the_side(view):
+    """A directional light from the upper left, in place of the headlight, so that shadows show."""
+    view.UseLight = 0
+    light = AddLight(view=view)
+    light.Coords = "Camera"
+    light.Type = "Directional"
+    light.Position = [-0.9, 1.1, 1.4]
+    light.FocalPoint = [0, 0, 0]
+    light.DiffuseColor = [1, 1, 1]
+    light.Intensity = 1
+
+
+def show_spheres(baked, view):
+    display = Show(baked, view)
+    display.SetRepresentationType("Ray-Traced Spheres")
+    display.ColorArrayName = ["POINTS", ""]
+    display.DiffuseColor = [0.92, 0.9, 0.86]
+    display.AmbientColor = display.DiffuseColor
+    return display
+
+
+def aim_camera(view):
+    """Obliquely onto the struck face."""
+    ResetCamera(view)
+    camera = view.GetActiveCamera()
+    camera.Elevation(-52)
+    camera.Azimuth(18)
+    camera.OrthogonalizeViewUp()
+    ResetCamera(view)
+    camera.Zoom(1.75)
+
+
+def colour_by_damage(display, view):
+    ColorBy(display, ("POINTS", "damage"))
+    damage = GetColorTransferFunction("damage")
+    damage.ApplyPreset("Viridis (matplotlib)", True)
+    damage.RescaleTransferFunction(0, 1)
+    display.SetScalarBarVisibility(view, True)
+    bar = GetScalarBar(damage, view)
+    bar.Title = "damage"
+    bar.ComponentTitle = ""
+    bar.TitleColor = bar.LabelColor = [0, 0, 0]
+
+
+def save_pictures(display, view):
+    """The same view: (a) direct light, (b) occlusion, (c) all with shadows and colours, (d) outlined."""
+    display.ShadingMode = "Direct Light"
+    SaveScreenshot(output("direct.png"), view, ImageResolution=SIZE)
+
+    display.ShadingMode = "Ambient Occlusion"
+    SaveScreenshot(output("ambient-occlusion.png"), view, ImageResolution=SIZE)
+
+    display.ShadingMode = "Direct Light and Ambient Occlusion"
+    display.OcclusionOnDiffuse = 0
+    display.Ambient = 0.55
+    display.Diffuse = 0.6
+    display.Shadows = 1
+    colour_by_damage(display, view)
+    SaveScreenshot(output("combined.png"), view, ImageResolution=SIZE)
+
+    view.SilhouetteVisibility = 1
+    SaveScreenshot(output("silhouettes.png"), view, ImageResolution=SIZE)
+
+
+def save_files(baked, display):
+    display.LayersFile = output("layers.exr")
+    display.SMProxy.InvokeCommand("WriteLayers")
+    SaveData(output("textures.exr"), baked)
+    # Binary: this ParaView cannot read appended data.
+    SaveData(output("baked.vtp"), baked, DataMode="Binary")
+    SaveState(output("state.pvsm"))
+
+
+def print_table(baked, display):
+    bake_of = baked.GetPropertyValue
+    display.UpdatePropertyInformation()
+    frame_of = display.GetPropertyValue
+    rows = [
+        ("particles", f"{bake_of('NumberOfParticles'):,}"),
+        ("texels", f"{bake_of('NumberOfTexels'):,}"),
+        ("occlusion rays", f"{bake_of('NumberOfRays'):,}"),
+        ("skipped: samples inside", f"{bake_of('NumberOfSamplesInside'):,}"),
+        ("skipped: texels inside", f"{bake_of('NumberOfTexelsInside'):,}"),
+        ("skipped: particles buried", f"{bake_of('NumberOfParticlesBuried'):,}"),
+        ("textures stored", f"{bake_of('NumberOfTextures'):,}"),
+        ("bytes of textures", f"{bake_of('NumberOfTextureBytes'):,}"),
+        ("seconds to bake", f"{bake_of('BakeSeconds'):.1f} on {bake_of('NumberOfThreads')} threads"),
+        ("primary rays a frame", f"{frame_of('NumberOfRays'):,}"),
+        ("shadow rays a frame", f"{frame_of('NumberOfShadowRays'):,}"),
+        ("seconds to trace, shadow, shade",
+         " ".join(f"{frame_of(name):.3f}" for name in ("TraceSeconds", "ShadowSeconds", "ShadeSeconds"))),
+    ]
+    width = max(len(name) for name, _ in rows)
+    for name, value in rows:
+        print(f"{name:<{width}}  {value}")
+
+
+def main():
+    os.makedirs(OUTPUT, exist_ok=True)
+    load_plugin()
+    particles = OpenDataFile(os.path.join(ROOT, "Data", "bullet_1000.vtp"))
+    baked = bake(particles)
+    view = make_view()
+    light_from_the_side(view)
+    display = show_spheres(baked, view)
+    aim_camera(view)
+    save_pictures(display, view)
+    save_files(baked, display)
+    print_table(baked, display)
+
+
+main()

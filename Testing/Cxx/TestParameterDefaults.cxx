@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// One parameter, one name, one default: from the server-manager XML over the VTK setters to the
+/// plain structs of the core.
+
+#include "BakeSettings.h"
+#include "ParameterTable.h"
+
+#include "vtkDepthSilhouettes.h"
+#include "vtkNew.h"
+#include "vtkSphereAmbientOcclusion.h"
+
+#include <gtest/gtest.h>
+
+namespace
+{
+TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
+{
+  vtkNew<vtkSphereAmbientOcclusion> f;
+  const double* up = f->GetBackgroundUp();
+  const ParameterTable defaults{
+    { "RadiusArray", { f->GetRadiusArray() } },
+    { "RadiusScale", { f->GetRadiusScale() } },
+    { "ConstantRadius", { f->GetConstantRadius() } },
+    { "TextureResolution", { f->GetTextureResolution() } },
+    { "SamplesPerTexel", { f->GetSamplesPerTexel() } },
+    { "TargetError", { f->GetTargetError() } },
+    { "Method", { f->GetMethod() } },
+    { "MaximumDistance", { f->GetMaximumDistance() } },
+    { "Background", { f->GetBackground() } },
+    { "BackgroundUp", { up[0], up[1], up[2] } },
+    { "BackgroundBottom", { f->GetBackgroundBottom() } },
+    { "BackgroundTop", { f->GetBackgroundTop() } },
+    { "BackgroundImage", { f->GetBackgroundImage() } },
+    { "DilateInside", { f->GetDilateInside() } },
+    { "InsideThreshold", { f->GetInsideThreshold() } },
+    { "Encoding", { f->GetEncoding() } },
+    { "Seed", { f->GetSeed() } },
+  };
+  expectDefaultsOfXml("Filters.xml", "SphereAmbientOcclusion", defaults);
+}
+
+TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
+{
+  vtkNew<vtkSphereAmbientOcclusion> f;
+  const po::BakeSettings core;
+  EXPECT_EQ(f->GetTextureResolution(), core.textureResolution);
+  EXPECT_EQ(f->GetSamplesPerTexel(), core.samplesPerTexel);
+  EXPECT_EQ(f->GetMaximumDistance(), core.maximumDistance);
+  EXPECT_EQ(f->GetDilateInside(), core.dilateInside);
+  EXPECT_EQ(f->GetInsideThreshold(), core.insideThreshold);
+  EXPECT_EQ(f->GetEncoding(), static_cast<int>(core.encoding));
+  EXPECT_EQ(static_cast<std::uint64_t>(f->GetSeed()), core.seed);
+  EXPECT_EQ(f->GetBackground(), static_cast<int>(core.background.index()));
+  const po::GradientBackground gradient;
+  EXPECT_EQ(f->GetBackgroundBottom(), gradient.bottom);
+  EXPECT_EQ(f->GetBackgroundTop(), gradient.top);
+  EXPECT_EQ(f->GetBackgroundUp()[2], gradient.up.z);
+}
+
+TEST(ParameterDefaults, OfTheImageFilterAgreeWithItsXml)
+{
+  vtkNew<vtkDepthSilhouettes> f;
+  const ParameterTable defaults{
+    { "Threshold", { f->GetThreshold() } },
+    { "BackgroundDepth", { f->GetBackgroundDepth() } },
+  };
+  expectDefaultsOfXml("DepthSilhouettes.xml", "DepthSilhouettes", defaults);
+}
+}
