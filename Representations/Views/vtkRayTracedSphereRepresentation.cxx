@@ -82,6 +82,7 @@ std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
 
 vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
 {
+  vtkMath::UninitializeBounds(this->Bounds);
   this->Actor->SetMapper(this->Mapper);
   // Without this an opacity below 1 would send the spheres to the translucent pass.
   this->Actor->ForceOpaqueOn();
@@ -156,17 +157,26 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
 
 void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
 {
-  double bounds[6];
-  vtkMath::UninitializeBounds(bounds);
   if (this->Particles)
   {
     vtkPVView::SetPiece(inInfo, this, this->Particles);
-    this->Mapper->SetInputDataObject(this->Particles);
-    this->Mapper->GetBounds(bounds);
+    this->UpdateBounds();
   }
   vtkNew<vtkMatrix4x4> matrix;
   this->Actor->GetMatrix(matrix);
-  vtkPVRenderView::SetGeometryBounds(inInfo, this, bounds, matrix);
+  vtkPVRenderView::SetGeometryBounds(inInfo, this, this->Bounds, matrix);
+}
+
+void vtkRayTracedSphereRepresentation::UpdateBounds()
+{
+  // Not each time: the mapper reads the spheres again when it changes between the particles and the
+  // delivered copy of them.
+  if (this->BoundsTime < this->Particles->GetMTime() || this->BoundsTime < this->RadiusTime)
+  {
+    this->Mapper->SetInputDataObject(this->Particles);
+    this->Mapper->GetBounds(this->Bounds);
+    this->BoundsTime.Modified();
+  }
 }
 
 void vtkRayTracedSphereRepresentation::UpdateColoring()
@@ -194,18 +204,21 @@ void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 void vtkRayTracedSphereRepresentation::SetRadiusArray(const char* name)
 {
   this->Mapper->SetRadiusArray(name);
+  this->RadiusTime.Modified();
   this->MarkModified();
 }
 
 void vtkRayTracedSphereRepresentation::SetRadiusScale(double scale)
 {
   this->Mapper->SetRadiusScale(scale);
+  this->RadiusTime.Modified();
   this->MarkModified();
 }
 
 void vtkRayTracedSphereRepresentation::SetConstantRadius(double radius)
 {
   this->Mapper->SetConstantRadius(radius);
+  this->RadiusTime.Modified();
   this->MarkModified();
 }
 

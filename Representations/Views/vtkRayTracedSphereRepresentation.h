@@ -14,6 +14,7 @@
 #include "vtkNew.h"
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h"
+#include "vtkTimeStamp.h"
 
 #include <string>
 
@@ -105,11 +106,15 @@ private:
   void operator=(const vtkRayTracedSphereRepresentation&) = delete;
 
   void ProvideData(vtkInformation* inInfo);
+  void UpdateBounds();
   void UpdateColoring();
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
   vtkSmartPointer<vtkPolyData> Particles;
+  double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
+  vtkTimeStamp BoundsTime;
+  vtkTimeStamp RadiusTime; ///< when a parameter of the radii was last set
   std::string LayersFile;
 };
 

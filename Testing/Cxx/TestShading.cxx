@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Shading.h"
+#include "TestViews.h"
+#include "TexelMap.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace
+{
+using namespace po;
+
+/// A big sphere as ground, a small one above it, light from straight above.
+TEST(Shadows, SphereAboveSphereIsADiscOfItsRadius)
+{
+  const SphereScene scene({ { 0, -1000, 0, 1000 }, { 0, 3, 0, 1 } });
+  // The eye looks down along -y from between ground and occluder.
+  const Matrix4 down{ 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, -1.5, 0, 0, 0, 1 };
+  const Camera camera{ down, parallel(-2, 2, -2, 2, 0, 10), 101, 101 };
+  const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
+  TracedFrame frame;
+  (void)traceFrame(scene, rays, frame);
+  Light light;
+  light.direction = { 0, -1, 0 };
+  std::vector<std::uint8_t> lit;
+  const ShadowCounters counters = traceShadows(scene, rays, frame, light, lit);
+  EXPECT_EQ(counters.rays, 101u * 101u);
+  EXPECT_EQ(counters.skipped, 0u);
+  for (int y = 0; y < 101; ++y)
+  {
+    for (int x = 0; x < 101; ++x)
+    {
+      const Vec3d p = rays.worldPoint(x + 0.5, y + 0.5, frame.t[pixelAt(frame, x, y)]);
+      const double fromAxis = std::hypot(p.x, p.z);
+      if (std::abs(fromAxis - 1) > 1e-3)
+      {
+        ASSERT_EQ(lit[pixelAt(frame, x, y)] != 0, fromAxis > 1) << x << ' ' << y;
+      }
+    }
+  }
+}
+
+TEST(Shadows, TheLitHalfOfALoneSphereHasNoSpeckle)
+{
+  // Far from the origin and lit from the side: nothing but the surface's own facing may decide.
+  const SphereScene scene({ { 300, 200, -100, 1 } });
+  const Camera camera{ translation(-300, -200, 90), parallel(-1.1, 1.1, -1.1, 1.1, 0, 20), 301,
+    301 };
+  const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
+  TracedFrame frame;
+  (void)traceFrame(scene, rays, frame);
+  Light light;
+  light.direction = normalized(Vec3d{ -1, -0.3, -0.1 });
+  std::vector<std::uint8_t> lit;
+  const ShadowCounters counters = traceShadows(scene, rays, frame, light, lit);
+  EXPECT_GT(counters.skipped, 10000u);
+  for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
+  {
+    if (frame.sphere[pixel] != SphereScene::None)
+    {
+      const double facing = -dot(frame.normal[pixel].as<double>(), light.direction);
+      ASSERT_EQ(lit[pixel] != 0, facing > 0);
+    }
+  }
+}
+
+TEST(Shadows, OccludersBehindAPositionalLightCastNone)
+{
+  const SphereScene scene({ { 0, 0, 0, 1 }, { 0, 0, 6, 1 } });
+  const Camera camera = lookAtOrigin(true, 4.5, 0.5, 5, 5, 0.1, 20);
+  const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
+  TracedFrame frame;
+  (void)traceFrame(scene, rays, frame);
+  Light light;
+  light.positional = true;
+  std::vector<std::uint8_t> lit;
+  light.position = { 0, 0, 4 };
+  (void)traceShadows(scene, rays, frame, light, lit);
+  EXPECT_EQ(lit[12], 1);
+  light.position = { 0, 0, 8 };
+  (void)traceShadows(scene, rays, frame, light, lit);
+  EXPECT_EQ(lit[12], 0);
+}
+
+TEST(Lights, ConeAndAttenuationFollowOpenGL)
+{
+  Light light;
+  light.positional = true;
+  light.position = { 0, 0, 2 };
+  light.coneAngle = 30;
+  light.exponent = 2;
+  light.attenuation = { 1, 0.5, 0.25 };
+  const double inAxis = illuminate(light, { 0, 0, 0 }).strength;
+  EXPECT_NEAR(inAxis, 1 / (1 + 0.5 * 2 + 0.25 * 4), 1e-12);
+  const double d = std::sqrt(5.0); // at 26.6 degrees
+  EXPECT_NEAR(
+    illuminate(light, { 1, 0, 0 }).strength, std::pow(2 / d, 2) / (1 + 0.5 * d + 0.25 * 5), 1e-12);
+  EXPECT_EQ(illuminate(light, { 1.2, 0, 0 }).strength, 0);
+}
+
+/// One random float texture of 8 x 8.
+struct OneTexture
+{
+  std::vector<float> values = std::vector<float>(64);
+  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(64);
+  std::vector<std::int32_t> rows{ 0 };
+
+  OneTexture()
+  {
+    std::mt19937 random(3);
+    for (std::size_t i = 0; i < 64; ++i)
+    {
+      bytes[i] = static_cast<std::uint8_t>(random() % 256);
+      values[i] = 0.8f * (bytes[i] / 255.0f) * (bytes[i] / 255.0f);
+    }
+  }
+};
+
+TEST(OcclusionTextures, ValueIsTheBilinearOneOfTheCore)
+{
+  const OneTexture one;
+  const OcclusionTextures floats(8, one.values.data(), one.rows.data(), nullptr);
+  const OcclusionTextures bytes(8, one.bytes.data(), 0.8, one.rows.data(), nullptr);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const TextureCoordinate c{ uniform(random), uniform(random) };
+    const BilinearTexels texels = bilinearTexels(8, c);
+    float expected = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      expected += texels.weight[k] * one.values[texels.index[k]];
+    }
+    EXPECT_NEAR(floats.at(0, textureDirection(c)), expected, 1e-5);
+    EXPECT_NEAR(bytes.at(0, textureDirection(c)), expected, 1e-5);
+  }
+}
+
+TEST(OcclusionTextures, NoJumpAcrossTheSeam)
+{
+  const OneTexture one;
+  const OcclusionTextures textures(8, one.values.data(), one.rows.data(), nullptr);
+  const double step = 1e-6;
+  for (double v = 0.01; v < 1; v += 0.01)
+  {
+    const float before = textures.at(0, textureDirection({ 1 - step, v }));
+    const float after = textures.at(0, textureDirection({ step, v }));
+    // Values differ by at most 0.8 over a texel, which is 1/8 of u.
+    EXPECT_NEAR(before, after, 2 * step * 8 * 0.8 + 1e-6) << v;
+  }
+}
+
+TEST(OcclusionTextures, ParticlesWithoutATextureHaveTheirMean)
+{
+  const OneTexture one;
+  const std::vector<std::int32_t> rows{ -1, 0 };
+  const std::vector<float> means{ 0.25f, 0.5f };
+  const OcclusionTextures with(8, one.values.data(), rows.data(), means.data());
+  const OcclusionTextures without(8, one.values.data(), rows.data(), nullptr);
+  EXPECT_EQ(with.at(0, { 1, 0, 0 }), 0.25f);
+  EXPECT_EQ(without.at(0, { 1, 0, 0 }), 1.0f);
+  EXPECT_EQ(OcclusionTextures().at(0, { 1, 0, 0 }), 1.0f);
+}
+
+/// A sphere that fills a 3 x 3 window, seen along -z; colours are those of the middle pixel.
+class ShadedSphere : public testing::Test
+{
+protected:
+  ShadedSphere()
+    : rays(*PrimaryRays::make(lookAtOrigin(false, 10, 0.5, 3, 3, 1, 20), Identity))
+  {
+    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, frame);
+    lights.front().direction = { 0, 0, -1 };
+    half = OcclusionTextures(1, halfOpen.data(), rows.data(), nullptr);
+  }
+
+  std::array<int, 3> middle(const OcclusionTextures& textures, const Material& material)
+  {
+    std::vector<std::uint8_t> rgba;
+    shadeFrame({ rays, frame, particles, textures, lights, shadows, material }, rgba);
+    EXPECT_EQ(rgba[4 * 4 + 3], 255);
+    return { rgba[16], rgba[17], rgba[18] };
+  }
+
+  PrimaryRays rays;
+  TracedFrame frame;
+  std::vector<std::int64_t> particles{ 0 };
+  std::vector<float> halfOpen{ 0.5f };
+  std::vector<std::int32_t> rows{ 0 };
+  OcclusionTextures none, half;
+  std::vector<Light> lights{ Light{} };
+  ShadowMasks shadows;
+};
+
+TEST_F(ShadedSphere, TermsAddUpAsInVTK)
+{
+  Material m;
+  m.mode = ShadingMode::DirectLight;
+  m.ambient = 0.1;
+  m.diffuse = 0.5;
+  m.specular = 0.2;
+  m.diffuseColor = { 1, 0.5f, 0 };
+  m.ambientColor = { 0, 0, 1 };
+  EXPECT_EQ(middle(half, m), (std::array<int, 3>{ 179, 115, 77 })); // .5+.2, .25+.2, .1+.2
+  shadows.lit = { std::vector<std::uint8_t>(9, 0) };
+  EXPECT_EQ(middle(half, m), (std::array<int, 3>{ 0, 0, 26 }));
+}
+
+TEST_F(ShadedSphere, OcclusionScalesWhatItShould)
+{
+  Material m;
+  m.ambient = 0.4;
+  m.diffuse = 0.4;
+  EXPECT_EQ(middle(none, m)[0], 204);
+  EXPECT_EQ(middle(half, m)[0], 102);
+  m.occlusionOnDiffuse = false;
+  EXPECT_EQ(middle(half, m)[0], 153); // 0.2 + 0.4
+  m.mode = ShadingMode::AmbientOcclusion;
+  m.diffuseColor = { 1, 0.5f, 0 };
+  EXPECT_EQ(middle(half, m), (std::array<int, 3>{ 128, 64, 0 }));
+  m.mode = ShadingMode::DirectLight;
+  m.diffuseColor = { 1, 1, 1 };
+  EXPECT_EQ(middle(half, m)[0], 204);
+}
+
+TEST_F(ShadedSphere, ParticleColoursReplaceBothColours)
+{
+  const std::uint8_t green[] = { 0, 200, 0, 255 };
+  Material m;
+  m.ambient = 0.5;
+  m.diffuse = 0.5;
+  m.particleColors = green;
+  EXPECT_EQ(middle(none, m), (std::array<int, 3>{ 0, 200, 0 }));
+}
+}
