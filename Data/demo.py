@@ -10,7 +10,7 @@ import os
 from paraview.simple import *
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-OUTPUT = os.environ.get("PARTICLEOCCLUSION_DEMO_OUTPUT", os.path.join(ROOT, "demo-output"))
+OUTPUT = os.path.join(ROOT, "demo-output")
 SIZE = [1000, 700]
 
 
@@ -144,8 +144,8 @@ def print_table(baked, display):
 
 
 def main():
-    os.makedirs(OUTPUT, exist_ok=True)
     load_plugin()
+    os.makedirs(OUTPUT, exist_ok=True)
     particles = OpenDataFile(os.path.join(ROOT, "Data", "bullet_1000.vtp"))
     baked = bake(particles)
     view = make_view()
@@ -157,4 +157,5 @@ def main():
     print_table(baked, display)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -44,7 +44,7 @@ def main():
             log = read(os.path.join(output, "log.txt"))
             raise SystemExit(f"The session in ParaView failed: {outcome}\n{log[-4000:]}")
         images.compare(os.path.join(output, "gui.png"), "gui.png")
-        if "RayTracedSpheres" not in read(os.path.join(output, "gui.pvsm")):
+        if "Ray-Traced Spheres" not in read(os.path.join(output, "gui.pvsm")):
             raise SystemExit("The saved state does not mention the representation.")
     finally:
         shutil.rmtree(output)
