@@ -78,7 +78,7 @@ public:
   ///@}
 
   ///@{
-  /// Hard shadows that spheres cast on spheres, from each light. Default off.
+  /// Hard shadows that the spheres of this mapper cast on each other, from each light. Default off.
   vtkSetMacro(Shadows, bool);
   vtkGetMacro(Shadows, bool);
   vtkBooleanMacro(Shadows, bool);
