@@ -64,6 +64,7 @@ void SphereRenderer::setCloud(SphereCloud cloud)
   cloud_ = std::move(cloud);
   scene_.reset();
   frameIsCurrent_ = false;
+  isShaded_ = false;
 }
 
 void SphereRenderer::buildScene()
@@ -79,6 +80,7 @@ bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)
     return true;
   }
   frameIsCurrent_ = false;
+  isShaded_ = false;
   shadowLights_.clear();
   rays_ = PrimaryRays::make(camera, multiply(modelToWorld, localToModel(cloud_)));
   if (!rays_)
@@ -159,5 +161,6 @@ void SphereRenderer::shade(const Material& material, const OcclusionTextures& te
   }
   const Stopwatch watch(statistics_.shadeSeconds);
   shadeFrame({ *rays_, frame_, cloud_.sourceIds, textures, lights, shadows_, material }, rgba_);
+  isShaded_ = true;
 }
 }

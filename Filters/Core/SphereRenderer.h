@@ -44,6 +44,10 @@ public:
   void shade(const Material& material, const OcclusionTextures& textures,
     const std::vector<Light>& lights, bool castShadows);
 
+  /// Do the results below belong together? Not before the first shade, nor after new spheres or a
+  /// new view until they are shaded.
+  [[nodiscard]] bool isShaded() const { return isShaded_; }
+
   // Results of the last trace and shade, row by row from the lower left corner.
   [[nodiscard]] const TracedFrame& frame() const { return frame_; }
   [[nodiscard]] const std::vector<std::uint8_t>& rgba() const { return rgba_; }
@@ -67,6 +71,7 @@ private:
   Camera camera_{};
   Matrix4 modelToWorld_{};
   bool frameIsCurrent_ = false;
+  bool isShaded_ = false;
   TracedFrame frame_;
   std::vector<float> windowDepth_;
   std::vector<Light> shadowLights_; ///< of the masks

@@ -102,6 +102,7 @@ void vtkRayTracedSphereMapper::UpdateSpheres()
     return;
   }
   this->Internal->LastSource = source;
+  this->Internal->LayersAreCurrent = false;
   this->Internal->Renderer.setCloud({});
   this->Internal->Baked = {};
   if (!input || input->GetNumberOfPoints() == 0)
@@ -264,9 +265,9 @@ vtkImageData* vtkRayTracedSphereMapper::GetLayers()
 {
   if (!this->Internal->LayersAreCurrent)
   {
-    this->Internal->Layers = this->Internal->Renderer.rgba().empty()
-      ? vtkSmartPointer<vtkImageData>::New()
-      : po::makeLayers(this->Internal->Renderer, this->Internal->Baked.textures);
+    this->Internal->Layers = this->Internal->Renderer.isShaded()
+      ? po::makeLayers(this->Internal->Renderer, this->Internal->Baked.textures)
+      : vtkSmartPointer<vtkImageData>::New();
     this->Internal->LayersAreCurrent = true;
   }
   return this->Internal->Layers;

@@ -78,7 +78,7 @@ public:
   ///@}
 
   ///@{
-  /// Hard shadows that spheres cast on spheres, from each light. Default off.
+  /// Hard shadows that the spheres of this mapper cast on each other, from each light. Default off.
   vtkSetMacro(Shadows, bool);
   vtkGetMacro(Shadows, bool);
   vtkBooleanMacro(Shadows, bool);
@@ -87,7 +87,8 @@ public:
   /// The last frame that was drawn, rows from the bottom, with the point arrays RGBA (uint8), Z
   /// (float32, distance along the eye ray or, in parallel projection, the view direction, in world
   /// units; +infinity on background), AO (float32), N (float32[3], world-space unit normal) and id
-  /// (int64, point, -1 on background). An empty image before the first frame. The image belongs to
+  /// (int64, point, -1 on background). An empty image where
+  /// no frame of the present spheres has been drawn. The image belongs to
   /// the mapper and does not follow later frames.
   vtkImageData* GetLayers();
 

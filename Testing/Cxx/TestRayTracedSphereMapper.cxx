@@ -496,6 +496,7 @@ TEST(RayTracedSphereMapper, MistakesGiveOneMessageAndNoCrash)
   scene.mapper->SetInputData(vtkSmartPointer<vtkPolyData>::New());
   scene.window->Render();
   EXPECT_EQ(errors.Count(), 1) << "nothing to draw is no mistake";
+  EXPECT_EQ(scene.mapper->GetLayers()->GetNumberOfPoints(), 0);
 }
 
 TEST(RayTracedSphereMapper, WindowsAndResourcesComeAndGo)
