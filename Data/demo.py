@@ -75,7 +75,7 @@ def aim_camera(view):
     camera.Azimuth(18)
     camera.OrthogonalizeViewUp()
     ResetCamera(view)
-    camera.Zoom(1.75)
+    camera.Zoom(1.5)
 
 
 def colour_by_damage(display, view):

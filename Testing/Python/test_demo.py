@@ -41,6 +41,7 @@ def check_state():
     ResetSession()
     LoadState(demo.output("state.pvsm"))
     view = GetActiveViewOrCreate("RenderViewWithSilhouettes")
+    view.UseFXAA = 0  # ParaView takes it from the user's settings, not from the state
     SaveScreenshot(demo.output("state.png"), view, ImageResolution=demo.SIZE)
     images.compare(demo.output("state.png"), "demo-silhouettes.png")
 
