@@ -107,22 +107,22 @@ struct TexelEstimate
   float outsideShare = 0;
 };
 
-TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, Workspace& work)
+/// The sums of the rays of one texel.
+struct TexelSums
 {
-  if (selectCaps(plan, row, column, work))
-  {
-    ++work.counters.texelsInside;
-    return {};
-  }
-  const Sphere& sphere = plan.scene.rays.spheres()[id];
-  Random random(plan.settings.seed, static_cast<std::uint64_t>(plan.scene.cloud.sourceIds[id]),
-    texelIndex(plan.resolution, row, column));
-  randomPermutation(random, work.pairing);
-
-  const TexelPatch patch(plan.resolution, row, column);
-  const int samples = plan.strata.size();
+  int samples = 0;
   int outside = 0;
   double light = 0;
+};
+
+/// One stratified set of rays from the part of a texel that is outside the cutting caps.
+void addRays(const Plan& plan, unsigned id, const TexelPatch& patch, Random& random,
+  Workspace& work, TexelSums& sums)
+{
+  const Sphere& sphere = plan.scene.rays.spheres()[id];
+  randomPermutation(random, work.pairing);
+  const int samples = plan.strata.size();
+  sums.samples += samples;
   for (int k = 0; k < samples; ++k)
   {
     const Point2 place = plan.strata.point(k, random.uniform(), random.uniform());
@@ -134,18 +134,42 @@ TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, 
     {
       continue;
     }
-    ++outside;
+    ++sums.outside;
     const Vec3d direction = aboutNormal(normal, cosineHemisphereFromSquare(heading));
     const Vec3f origin = sphere.center() + sphere.radius * normal.as<float>();
     if (!plan.scene.rays.occluded(origin, direction.as<float>(), plan.rayLength, id))
     {
-      light += plan.uniform ? 1 : luminance(plan.settings.background, direction);
+      sums.light += plan.uniform ? 1 : luminance(plan.settings.background, direction);
     }
   }
-  work.counters.rays += static_cast<std::uint64_t>(outside);
-  work.counters.samplesInside += static_cast<std::uint64_t>(samples - outside);
-  return { outside > 0 ? static_cast<float>(light / outside) : 0.0f,
-    static_cast<float>(outside) / static_cast<float>(samples) };
+}
+
+TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, Workspace& work)
+{
+  if (selectCaps(plan, row, column, work))
+  {
+    ++work.counters.texelsInside;
+    return {};
+  }
+  const TexelPatch patch(plan.resolution, row, column);
+  Random random(plan.settings.seed, static_cast<std::uint64_t>(plan.scene.cloud.sourceIds[id]),
+    texelIndex(plan.resolution, row, column));
+
+  // A texel of which little is outside would be left with few rays, and show as a noisy rim of the
+  // overlap: it gets further sets. Where to stop depends on the geometry alone, so there is no
+  // bias.
+  constexpr int MaximumSets = 8;
+  TexelSums sums;
+  addRays(plan, id, patch, random, work, sums);
+  for (int set = 1; set < MaximumSets && sums.outside > 0 && 2 * sums.outside < plan.strata.size();
+       ++set)
+  {
+    addRays(plan, id, patch, random, work, sums);
+  }
+  work.counters.rays += static_cast<std::uint64_t>(sums.outside);
+  work.counters.samplesInside += static_cast<std::uint64_t>(sums.samples - sums.outside);
+  return { sums.outside > 0 ? static_cast<float>(sums.light / sums.outside) : 0.0f,
+    static_cast<float>(sums.outside) / static_cast<float>(sums.samples) };
 }
 
 /// Fills the T * T values and shares of one particle, which are zero on entry.
