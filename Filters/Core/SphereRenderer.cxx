@@ -127,22 +127,32 @@ void SphereRenderer::computeWindowDepth()
 
 void SphereRenderer::castShadows(const std::vector<Light>& lights)
 {
-  const Stopwatch watch(statistics_.shadowSeconds);
-  statistics_.shadows = {};
-  shadows_.lit.resize(lights.size());
+  const auto isKept = [&](std::size_t i)
+  { return i < shadowLights_.size() && sameReach(lights[i], shadowLights_[i]); };
+  std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
-    if (i < shadowLights_.size() && sameReach(lights[i], shadowLights_[i]))
+    if (!isKept(i))
     {
-      continue;
+      moved.push_back(i);
     }
+  }
+  shadows_.lit.resize(lights.size());
+  shadowLights_ = lights;
+  if (moved.empty())
+  {
+    return; // the statistics stay those of the last time
+  }
+  const Stopwatch watch(statistics_.shadowSeconds);
+  statistics_.shadows = {};
+  for (const std::size_t i : moved)
+  {
     const ShadowCounters counters =
       traceShadows(*scene_, *rays_, frame_, lights[i], shadows_.lit[i]);
     statistics_.shadows.rays += counters.rays;
     statistics_.shadows.skipped += counters.skipped;
     ++statistics_.shadowsTraced;
   }
-  shadowLights_ = lights;
 }
 
 void SphereRenderer::shade(const Material& material, const OcclusionTextures& textures,

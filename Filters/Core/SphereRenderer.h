@@ -17,7 +17,7 @@ namespace po
 struct RenderStatistics
 {
   TraceCounters trace;    ///< of the last traced frame
-  ShadowCounters shadows; ///< of the last frame, over all lights whose shadows were traced
+  ShadowCounters shadows; ///< the last time shadows were traced, over the lights that had moved
   std::size_t framesTraced = 0;
   std::size_t shadowsTraced = 0; ///< masks of single lights
   double buildSeconds = 0, traceSeconds = 0, shadowSeconds = 0, shadeSeconds = 0;
