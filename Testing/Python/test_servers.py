@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The plugin in pvbatch and in a pvserver that a pvpython client connects to, with remote and with local
+rendering: the same picture everywhere.
+
+Usage: pvpython test_servers.py PVPYTHON PVBATCH PVSERVER
+"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import images
+
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Data")
+
+SESSION = """
+import os
+from paraview.simple import *
+plugin = os.environ["PARTICLEOCCLUSION_PLUGIN"]
+port = {port}
+if port:
+    Connect("localhost", port)
+    LoadPlugin(plugin, remote=True, ns=globals())
+LoadPlugin(plugin, remote=False, ns=globals())
+particles = OpenDataFile(r"{data}")
+baked = SphereAmbientOcclusion(Input=particles, TextureResolution=4, SamplesPerTexel=16)
+view = CreateView("RenderViewWithSilhouettes")
+view.ViewSize = [300, 200]
+view.OrientationAxesVisibility = 0
+view.UseFXAA = 0
+if port:
+    view.RemoteRenderThreshold = {threshold}
+display = Show(baked, view)
+display.SetRepresentationType("Ray-Traced Spheres")
+ColorBy(display, ("POINTS", "charge"))
+ResetCamera(view)
+SaveScreenshot(r"{picture}", view, ImageResolution=[300, 200])
+if port:
+    Disconnect()
+"""
+
+
+def run_session(executable, folder, name, port=0, threshold=0):
+    """Runs the session; returns the path of its picture."""
+    picture = os.path.join(folder, name + ".png")
+    script = os.path.join(folder, name + ".py")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(SESSION.format(port=port, threshold=threshold, picture=picture,
+                                  data=os.path.join(DATA, "molecule.vtp")))
+    done = subprocess.run([executable, script], capture_output=True, text=True, timeout=100, check=False)
+    if done.returncode != 0 or not os.path.exists(picture):
+        raise SystemExit(f"{name} failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")
+    return picture
+
+
+def start_server(executable):
+    """A pvserver on a port that the system chose, and that port."""
+    server = subprocess.Popen([executable, "--server-port=0"], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True)
+    for line in server.stdout:
+        accepting = re.search(r"Accepting connection\(s\): .*:(\d+)", line)
+        if accepting:
+            return server, int(accepting.group(1))
+    raise SystemExit("pvserver did not start")
+
+
+def with_server(pvserver, pvpython, folder, name, threshold):
+    server, port = start_server(pvserver)
+    try:
+        return run_session(pvpython, folder, name, port, threshold)
+    finally:
+        server.kill()
+        server.wait()
+
+
+def main():
+    pvpython, pvbatch, pvserver = sys.argv[1:4]
+    with tempfile.TemporaryDirectory() as folder:
+        reference = run_session(pvpython, folder, "pvpython")
+        others = [
+            run_session(pvbatch, folder, "pvbatch"),
+            with_server(pvserver, pvpython, folder, "pvserver-remote-rendering", 0),
+            with_server(pvserver, pvpython, folder, "pvserver-local-rendering", 1000),
+        ]
+        for picture in others:
+            images.compare_files(picture, reference)
+
+
+main()
