@@ -23,8 +23,22 @@ constexpr double Pi = 3.14159265358979323846;
 /// What all texels of a row have in common.
 struct TexelRow
 {
-  double angularRadius;
+  double angularRadius; ///< of a texel, radians
+  int sharedColumns;    ///< so many neighbouring texels use the same random numbers
 };
+
+/// Texels near a pole are slivers: with noise of their own they would meet in a visible star. As
+/// many as make up the width of a texel on the equator share their random numbers, so that their
+/// errors are nearly equal; around the pole all do. Every texel by itself stays an unbiased
+/// estimate.
+int columnsSharingRandomNumbers(int resolution, int row)
+{
+  if (row == 0 || row == resolution - 1)
+  {
+    return resolution;
+  }
+  return static_cast<int>(std::lround(1 / std::sin(Pi * (row + 0.5) / resolution)));
+}
 
 /// Read-only state of a bake.
 struct Plan
@@ -66,7 +80,8 @@ Plan makePlan(const BakeScene& scene, const BakeSettings& settings)
   }
   for (int row = 0; row < resolution; ++row)
   {
-    plan.rows.push_back({ texelAngularRadius(resolution, row) });
+    plan.rows.push_back(
+      { texelAngularRadius(resolution, row), columnsSharingRandomNumbers(resolution, row) });
   }
   return plan;
 }
@@ -152,8 +167,9 @@ TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, 
     return {};
   }
   const TexelPatch patch(plan.resolution, row, column);
+  const int shared = plan.rows[static_cast<std::size_t>(row)].sharedColumns;
   Random random(plan.settings.seed, static_cast<std::uint64_t>(plan.scene.cloud.sourceIds[id]),
-    texelIndex(plan.resolution, row, column));
+    texelIndex(plan.resolution, row, column - column % shared));
 
   // A texel of which little is outside would be left with few rays, and show as a noisy rim of the
   // overlap: it gets further sets. Where to stop depends on the geometry alone, so there is no
