@@ -309,6 +309,11 @@ vtkIdType vtkRayTracedSphereMapper::GetNumberOfTracedFrames()
   return static_cast<vtkIdType>(this->Internal->Renderer.statistics().framesTraced);
 }
 
+vtkIdType vtkRayTracedSphereMapper::GetNumberOfTracedShadows()
+{
+  return static_cast<vtkIdType>(this->Internal->Renderer.statistics().shadowsTraced);
+}
+
 double vtkRayTracedSphereMapper::GetBuildSeconds()
 {
   return this->Internal->Renderer.statistics().buildSeconds;

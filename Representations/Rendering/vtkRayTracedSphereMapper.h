@@ -101,6 +101,7 @@ public:
   vtkIdType GetNumberOfSkippedTiles();
   vtkIdType GetNumberOfSkippedShadowRays();
   vtkIdType GetNumberOfTracedFrames();
+  vtkIdType GetNumberOfTracedShadows(); ///< shadow masks of single lights, traced so far
   ///@}
 
   ///@{

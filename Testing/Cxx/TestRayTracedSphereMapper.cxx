@@ -371,13 +371,15 @@ TEST(RayTracedSphereMapper, TracesOnlyWhenTheViewOrTheSpheresChange)
   scene.window->Render();
   EXPECT_EQ(scene.mapper->GetNumberOfTracedFrames(), 1);
   EXPECT_GT(scene.mapper->GetNumberOfShadowRays(), 0);
+  const vtkIdType shadows = scene.mapper->GetNumberOfTracedShadows();
+  EXPECT_EQ(shadows, 1);
   const Picture before = grab(scene.window);
 
   scene.actor->GetProperty()->SetColor(1, 0, 0);
   scene.mapper->SetShadingMode(vtkRayTracedSphereMapper::DIRECT_LIGHT);
   scene.window->Render();
   EXPECT_EQ(scene.mapper->GetNumberOfTracedFrames(), 1);
-  EXPECT_EQ(scene.mapper->GetNumberOfShadowRays(), 0) << "the light stayed where it was";
+  EXPECT_EQ(scene.mapper->GetNumberOfTracedShadows(), shadows) << "the light stayed where it was";
   EXPECT_GT(differingShare(before, grab(scene.window)), 0.1);
 
   vtkNew<vtkLight> light;
@@ -385,7 +387,7 @@ TEST(RayTracedSphereMapper, TracesOnlyWhenTheViewOrTheSpheresChange)
   scene.renderer->AddLight(light);
   scene.window->Render();
   EXPECT_EQ(scene.mapper->GetNumberOfTracedFrames(), 1);
-  EXPECT_GT(scene.mapper->GetNumberOfShadowRays(), 0);
+  EXPECT_EQ(scene.mapper->GetNumberOfTracedShadows(), shadows + 1) << "only the new light's";
 
   scene.renderer->GetActiveCamera()->Azimuth(5);
   scene.window->Render();
