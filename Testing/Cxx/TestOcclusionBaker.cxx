@@ -3,6 +3,7 @@
 #include "ErrorPilot.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
+#include "TestScenes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -18,22 +19,6 @@ namespace
 {
 constexpr double Pi = 3.14159265358979323846;
 
-po::SphereCloud cloudOf(const std::vector<po::Sphere>& spheres)
-{
-  return po::makeSphereCloud(
-    spheres.size(), [&](std::size_t i) { return spheres[i].center().as<double>(); },
-    [&](std::size_t i) { return static_cast<double>(spheres[i].radius); });
-}
-
-po::BakeSettings floatSettings(int resolution, int samples)
-{
-  po::BakeSettings settings;
-  settings.textureResolution = resolution;
-  settings.samplesPerTexel = samples;
-  settings.encoding = po::Encoding::Float32Linear;
-  return settings;
-}
-
 po::BakeResult bake(const std::vector<po::Sphere>& spheres, const po::BakeSettings& settings)
 {
   po::Progress progress;
@@ -46,35 +31,6 @@ double texelValue(const po::BakeResult& result, std::size_t particle, std::size_
   const int resolution = result.table.resolution;
   const auto row = static_cast<std::size_t>(result.rowOf[particle]);
   return result.table.floats[row * static_cast<std::size_t>(resolution * resolution) + texel];
-}
-
-/// Spheres on a sphere of radius `distance` about the origin, overlapping so that no gap is left.
-void addClosedShell(std::vector<po::Sphere>& spheres, double distance, double radius, int count)
-{
-  const double golden = Pi * (3 - std::sqrt(5.0));
-  for (int i = 0; i < count; ++i)
-  {
-    const double z = 1 - (2 * i + 1.0) / count;
-    const double r = std::sqrt(1 - z * z);
-    const po::Vec3d p =
-      distance * po::Vec3d{ r * std::cos(golden * i), r * std::sin(golden * i), z };
-    spheres.push_back({ static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
-      static_cast<float>(radius) });
-  }
-}
-
-/// A cloud with overlaps, contacts and unequal radii.
-std::vector<po::Sphere> mixedScene()
-{
-  po::Random random(4, 0, 0);
-  std::vector<po::Sphere> spheres;
-  for (int i = 0; i < 60; ++i)
-  {
-    const auto coordinate = [&] { return static_cast<float>(6 * random.uniform()); };
-    spheres.push_back({ coordinate(), coordinate(), coordinate(),
-      static_cast<float>(0.3 + 0.9 * random.uniform()) });
-  }
-  return spheres;
 }
 
 TEST(OcclusionBaker, ALoneSphereIsExactlyOpen)
@@ -405,41 +361,13 @@ TEST(OcclusionBaker, AbortsWithinASecondAndReportsProgressOnTheCallingThread)
   EXPECT_LT(seconds.count(), 1.3);
 }
 
-/// Values and outside shares of all particles, as the estimator finds them.
-struct Estimates
-{
-  std::vector<float> values;
-  std::vector<float> shares;
-};
-
-Estimates estimateAll(const po::BakeScene& scene, const po::BakeSettings& settings)
-{
-  std::vector<unsigned> all(scene.cloud.spheres.size());
-  std::iota(all.begin(), all.end(), 0u);
-  const auto texels =
-    static_cast<std::size_t>(settings.textureResolution * settings.textureResolution);
-  Estimates found;
-  po::Progress progress;
-  po::BakeCounters counters;
-  po::ReferenceEstimator().estimate(
-    scene, all, settings, progress,
-    [&](const po::RawTextures& raw)
-    {
-      found.values.insert(found.values.end(), raw.values, raw.values + raw.count * texels);
-      found.shares.insert(
-        found.shares.end(), raw.outsideShares, raw.outsideShares + raw.count * texels);
-    },
-    counters);
-  return found;
-}
-
 TEST(OcclusionBaker, ThePilotFindsTheSamplesThatReachAnError)
 {
   // The promised error against a far finer bake of all particles, weighted by visible area. The
   // pilot's own estimate from 960 texels scatters by about 5 %.
   const po::SphereCloud cloud = cloudOf(mixedScene());
   const po::BakeScene scene(cloud);
-  const Estimates judge = estimateAll(scene, floatSettings(4, 20000));
+  const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, floatSettings(4, 20000));
   for (const double target : { 0.05, 0.02, 0.01 })
   {
     po::Progress progress;
@@ -450,7 +378,7 @@ TEST(OcclusionBaker, ThePilotFindsTheSamplesThatReachAnError)
     EXPECT_LE(pilot.estimatedError, target);
     settings.samplesPerTexel = pilot.samplesPerTexel;
     settings.seed = 99;
-    const Estimates result = estimateAll(scene, settings);
+    const Estimates result = estimateAll(po::ReferenceEstimator(), scene, settings);
     double squares = 0;
     double area = 0;
     for (std::size_t i = 0; i < judge.values.size(); ++i)

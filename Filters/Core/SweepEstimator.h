@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_SweepEstimator_h
+#define po_SweepEstimator_h
+
+#include "OcclusionEstimator.h"
+
+namespace po
+{
+/// How much work a sweep does.
+struct SweepOptions
+{
+  int directions = 0;     ///< 0: as many as the settings' samplesPerTexel stand for
+  double targetError = 0; ///< above 0: RMS error to reach, with as many directions as that takes
+};
+
+/// What a sweep did to reach its result.
+struct SweepReport
+{
+  int directions = 0;        ///< swept, without those that the background makes black
+  double estimatedError = 0; ///< RMS error of linear visibility, from subsets of the directions
+  bool reached = false;      ///< the target error, if there was one
+};
+
+/// Finds the visibility of all spheres at once along directions that all share, by going through the
+/// scene from the light downward: no rays, no epsilon.
+///
+/// For each direction the spheres are projected, sorted into tiles and by depth; a sphere starts
+/// with the texels that face the light and loses those behind the spheres in front of it. Each
+/// direction looks at another point of every texel. Points inside other spheres have no weight.
+///
+/// The cost does not depend on how many particles are listed: for a few, rays are better.
+class SweepEstimator : public OcclusionEstimator
+{
+public:
+  static constexpr int MaximumDirections = 1 << 20;
+
+  SweepEstimator() = default;
+
+  explicit SweepEstimator(SweepOptions options)
+    : options_(options)
+  {
+  }
+
+  void estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
+    const BakeSettings& settings, Progress& progress, const Sink& sink,
+    BakeCounters& counters) const override;
+
+  /// Of the last estimate.
+  [[nodiscard]] const SweepReport& report() const { return report_; }
+
+private:
+  SweepOptions options_;
+  mutable SweepReport report_;
+};
+
+/// The directions whose error is that of so many jittered rays a texel.
+[[nodiscard]] int sweepDirectionsForSamples(int samplesPerTexel);
+}
+
+#endif

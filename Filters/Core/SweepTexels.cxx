@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SweepTexels.h"
+
+#include "Random.h"
+#include "SweepDirections.h"
+#include "TexelMap.h"
+
+#include <cmath>
+
+namespace po
+{
+namespace
+{
+constexpr int SmallestResolution = 12;
+constexpr int PatchSide = 4;
+static_assert(PatchSide * PatchSide == static_cast<int>(GroupSize));
+
+/// Fractional part of a sum of two numbers in [0, 1).
+double wrapped(double a)
+{
+  return a - std::floor(a);
+}
+}
+
+SweepTexels::SweepTexels(int textureResolution)
+  : refinement_((SmallestResolution + textureResolution - 1) / textureResolution)
+  , resolution_(refinement_ * textureResolution)
+{
+  const int patches = (resolution_ + PatchSide - 1) / PatchSide;
+  for (int patch = 0; patch < patches * patches; ++patch)
+  {
+    for (int k = 0; k < static_cast<int>(GroupSize); ++k)
+    {
+      const int row = patch / patches * PatchSide + k / PatchSide;
+      const int column = patch % patches * PatchSide + k % PatchSide;
+      const bool exists = row < resolution_ && column < resolution_;
+      const TextureCoordinate middle{ (column + 0.5) / resolution_, (row + 0.5) / resolution_ };
+      texelOfSlot_.push_back(
+        exists ? static_cast<std::uint32_t>(texelIndex(resolution_, row, column)) : Empty);
+      rowOf_.push_back(exists ? row : 0);
+      center_.push_back(exists ? textureDirection(middle).as<float>() : Vec3f());
+    }
+  }
+  for (int row = 0; row < resolution_; ++row)
+  {
+    angularRadii_.push_back(texelAngularRadius(resolution_, row));
+  }
+}
+
+TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std::uint32_t epoch)
+  : x(Count * texels.slots())
+  , y(x.size())
+  , z(x.size())
+  , slots(texels.slots())
+{
+  // The plastic number gives the Kronecker sequence of two dimensions that is spread best (Roberts
+  // 2018); every texel shifts it by an amount of its own.
+  constexpr double stepS = 0.75487766624669276;
+  constexpr double stepT = 0.56984029099805327;
+  for (std::size_t slot = 0; slot < slots; ++slot)
+  {
+    const std::uint32_t texel = texels.texelOfSlot(slot);
+    if (texel == SweepTexels::Empty)
+    {
+      continue;
+    }
+    const auto columns = static_cast<std::uint32_t>(texels.resolution());
+    const TexelPatch patch(
+      texels.resolution(), static_cast<int>(texel / columns), static_cast<int>(texel % columns));
+    Random random(seed, 0, texel);
+    const double shiftS = random.uniform();
+    const double shiftT = random.uniform();
+    for (std::size_t pattern = 0; pattern < Count; ++pattern)
+    {
+      const double k = static_cast<double>(epoch) * Count + static_cast<double>(pattern);
+      const Vec3d n = patch.point(wrapped(shiftS + stepS * k), wrapped(shiftT + stepT * k));
+      const std::size_t i = index(pattern, slot);
+      x[i] = static_cast<float>(n.x);
+      y[i] = static_cast<float>(n.y);
+      z[i] = static_cast<float>(n.z);
+    }
+  }
+}
+
+FacingTexels::FacingTexels(const SweepTexels& texels, const TexelPatterns& patterns,
+  std::size_t pattern, Vec3d direction, double luminance)
+{
+  const PlaneBasis basis = planeBasis(direction);
+  for (std::size_t g = 0; g < texels.groups(); ++g)
+  {
+    GroupMask mask = 0;
+    for (std::size_t lane = 0; lane < GroupSize; ++lane)
+    {
+      const Vec3d n = patterns.normal(pattern, g * GroupSize + lane).as<double>();
+      const bool faces = static_cast<float>(dot(n, direction)) > 0;
+      mask = static_cast<GroupMask>(mask | (unsigned(faces) << lane));
+    }
+    if (mask == 0)
+    {
+      continue;
+    }
+    group.push_back(static_cast<std::uint32_t>(g));
+    facing.push_back(mask);
+    for (std::size_t lane = 0; lane < GroupSize; ++lane)
+    {
+      const Vec3d n = patterns.normal(pattern, g * GroupSize + lane).as<double>();
+      const double height = dot(n, direction);
+      u.push_back(static_cast<float>(dot(n, basis.x)));
+      v.push_back(static_cast<float>(dot(n, basis.y)));
+      w.push_back(static_cast<float>(height));
+      weight.push_back(height > 0 ? static_cast<float>(height * luminance) : 0.0f);
+    }
+  }
+}
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_SweepTexels_h
+#define po_SweepTexels_h
+
+#include "Vec3.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace po
+{
+/// Texels are handled in groups of this many, a bit each in a GroupMask.
+inline constexpr std::size_t GroupSize = 16;
+using GroupMask = std::uint16_t;
+
+/// The texels that a sweep follows, and where in them it looks.
+///
+/// The grid is that of the texture, or a whole multiple of it where the texture has fewer than 12
+/// rows: a handful of points would not do to tell hidden spheres. Patches of 4 x 4 texels make a
+/// group, since neighbours on the sphere face a direction, and are hidden, together. A texel's place
+/// in this order is its slot; patches that jut out of the grid leave empty slots.
+class SweepTexels
+{
+public:
+  static constexpr std::uint32_t Empty = std::numeric_limits<std::uint32_t>::max();
+
+  explicit SweepTexels(int textureResolution);
+
+  /// Rows and columns of the fine grid: refinement() times the texture's.
+  [[nodiscard]] int resolution() const { return resolution_; }
+  [[nodiscard]] int refinement() const { return refinement_; }
+  [[nodiscard]] std::size_t groups() const { return texelOfSlot_.size() / GroupSize; }
+  [[nodiscard]] std::size_t slots() const { return texelOfSlot_.size(); }
+
+  /// Row-major index of a slot's texel in the fine grid, or Empty.
+  [[nodiscard]] std::uint32_t texelOfSlot(std::size_t slot) const { return texelOfSlot_[slot]; }
+
+  /// Row of a slot's texel in the fine grid, and the direction of its centre; 0 in empty slots.
+  [[nodiscard]] int rowOf(std::size_t slot) const { return rowOf_[slot]; }
+  [[nodiscard]] Vec3f center(std::size_t slot) const { return center_[slot]; }
+
+  /// The largest angle between a texel's centre and its points, by row.
+  [[nodiscard]] const std::vector<double>& angularRadii() const { return angularRadii_; }
+
+private:
+  int refinement_;
+  int resolution_;
+  std::vector<std::uint32_t> texelOfSlot_;
+  std::vector<int> rowOf_;
+  std::vector<Vec3f> center_;
+  std::vector<double> angularRadii_;
+};
+
+/// Points on the texels: each texel has PatternCount of them, spread evenly over its area. Pattern
+/// p, the p-th point of every texel, serves a sweep direction.
+struct TexelPatterns
+{
+  static constexpr std::size_t Count = 64; ///< one bit each in 64
+
+  /// @param epoch patterns of different epochs interleave: together they are well spread too
+  TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std::uint32_t epoch);
+
+  /// The unit normals [Count][slots], 0 in empty slots.
+  std::vector<float> x, y, z;
+
+  [[nodiscard]] std::size_t index(std::size_t pattern, std::size_t slot) const
+  {
+    return pattern * slots + slot;
+  }
+  [[nodiscard]] Vec3f normal(std::size_t pattern, std::size_t slot) const
+  {
+    const std::size_t i = index(pattern, slot);
+    return { x[i], y[i], z[i] };
+  }
+
+  std::size_t slots;
+};
+
+/// The texels whose points face a direction, in the frame of the projection: u and v across, w
+/// towards the light. Only groups with a facing texel are listed; arrays hold GroupSize entries for
+/// each of them.
+struct FacingTexels
+{
+  /// @param luminance of the background in this direction
+  FacingTexels(const SweepTexels& texels, const TexelPatterns& patterns, std::size_t pattern,
+    Vec3d direction, double luminance);
+
+  [[nodiscard]] std::size_t groups() const { return group.size(); }
+
+  std::vector<std::uint32_t> group;   ///< which group of SweepTexels
+  std::vector<GroupMask> facing;      ///< its texels with w > 0
+  std::vector<float> u, v, w, weight; ///< weight = w * luminance, 0 where w <= 0
+};
+}
+
+#endif

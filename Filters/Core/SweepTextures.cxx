@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SweepTextures.h"
+
+#include "TexelMap.h"
+#include "TexelMask.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace po
+{
+namespace
+{
+constexpr double SphereArea = 4 * 3.14159265358979323846;
+}
+
+SweepTextures::SweepTextures(const VisibilityRecords& records, const Background& background)
+  : records_(records)
+{
+  const SweepTexels& texels = records.texels();
+  const TexelPatterns& patterns = records.patterns();
+  const BackgroundIrradiance irradiance(background);
+  irradiance_.resize(TexelPatterns::Count * texels.slots());
+  openIrradiance_.resize(texels.slots());
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
+  {
+    if (texels.texelOfSlot(slot) == SweepTexels::Empty)
+    {
+      continue;
+    }
+    double sum = 0;
+    for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
+    {
+      const double value = irradiance(normalized(patterns.normal(p, slot).as<double>()));
+      irradiance_[patterns.index(p, slot)] = static_cast<float>(value);
+      sum += value;
+    }
+    openIrradiance_[slot] = static_cast<float>(sum / TexelPatterns::Count);
+  }
+  for (int row = 0; row < texels.resolution(); ++row)
+  {
+    areas_.push_back(texelArea(texels.resolution(), row));
+  }
+}
+
+SweepTextures::FineTexels SweepTextures::fineTexels(const VisibilityRecord& record) const
+{
+  const std::size_t slots = records_.texels().slots();
+  const std::size_t groups = records_.texels().groups();
+  FineTexels fine{ openIrradiance_, std::vector<float>(slots, 1.0f),
+    records_.outsideWeights(record) };
+  if (record.caps.empty())
+  {
+    return fine;
+  }
+  const std::vector<float> ones(slots, 1.0f);
+  std::vector<float> points(slots, 0.0f);
+  std::vector<float> irradiance(slots, 0.0f);
+  for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
+  {
+    const GroupMask* exposed = record.exposure.ofPattern(p, groups);
+    addMasked(groups, exposed, ones.data(), points.data());
+    addMasked(groups, exposed, irradiance_.data() + p * slots, irradiance.data());
+  }
+  for (std::size_t slot = 0; slot < slots; ++slot)
+  {
+    fine.share[slot] = points[slot] / TexelPatterns::Count;
+    if (points[slot] < TexelPatterns::Count)
+    {
+      fine.irradiance[slot] = points[slot] > 0 ? irradiance[slot] / points[slot] : 0.0f;
+    }
+  }
+  return fine;
+}
+
+void SweepTextures::coarsen(const FineTexels& fine, const float* sums, const float* weight,
+  float* values, float* shares) const
+{
+  const SweepTexels& texels = records_.texels();
+  const int side = texels.resolution() / texels.refinement();
+  const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  std::vector<double> light(count, 0.0);
+  std::vector<double> outside(count, 0.0);
+  std::vector<double> area(count, 0.0);
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
+  {
+    const std::uint32_t texel = texels.texelOfSlot(slot);
+    if (texel == SweepTexels::Empty)
+    {
+      continue;
+    }
+    const int row = static_cast<int>(texel) / texels.resolution();
+    const int column = static_cast<int>(texel) % texels.resolution();
+    const std::size_t target =
+      texelIndex(side, row / texels.refinement(), column / texels.refinement());
+    const double size = areas_[static_cast<std::size_t>(row)];
+    area[target] += size;
+    if (weight[slot] > 0)
+    {
+      const double exposed = size * static_cast<double>(fine.share[slot]);
+      const float open = std::min(sums[slot] / weight[slot], 1.0f);
+      light[target] += exposed * static_cast<double>(open) * fine.irradiance[slot];
+      outside[target] += exposed;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    values[i] = outside[i] > 0 ? static_cast<float>(light[i] / outside[i]) : 0.0f;
+    shares[i] = static_cast<float>(outside[i] / area[i]);
+  }
+}
+
+void SweepTextures::fill(unsigned particle, float* values, float* shares) const
+{
+  const SweepTexels& texels = records_.texels();
+  const int side = texels.resolution() / texels.refinement();
+  const VisibilityRecord* record = records_.find(particle);
+  if (record == nullptr || record->buried)
+  {
+    std::fill(values, values + side * side, 0.0f);
+    std::fill(shares, shares + side * side, record == nullptr ? 1.0f : 0.0f);
+    return;
+  }
+  const FineTexels fine = fineTexels(*record);
+  coarsen(fine, record->sums.data(), fine.weight.data(), values, shares);
+}
+
+SweepTextures::SquaredError SweepTextures::squaredError(unsigned particle) const
+{
+  const SweepTexels& texels = records_.texels();
+  const int side = texels.resolution() / texels.refinement();
+  const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const VisibilityRecord* record = records_.find(particle);
+  SquaredError error;
+  if (record == nullptr)
+  {
+    error.area = SphereArea;
+    return error;
+  }
+  if (record->buried)
+  {
+    return error;
+  }
+  const FineTexels fine = fineTexels(*record);
+  std::vector<float> shares(count);
+  std::vector<float> values(SweepSubsets * count);
+  std::vector<float> weight(texels.slots());
+  for (std::size_t subset = 0; subset < SweepSubsets; ++subset)
+  {
+    const float* open = records_.openWeights().subsets.data() + subset * texels.slots();
+    for (std::size_t slot = 0; slot < texels.slots(); ++slot)
+    {
+      // Of a texel that is cut, the outside part of the weights is nearly the same in all subsets.
+      const float total = records_.openWeights().total[slot];
+      weight[slot] = total > 0 ? open[slot] * (fine.weight[slot] / total) : 0.0f;
+    }
+    coarsen(fine, record->subsetSums.data() + subset * texels.slots(), weight.data(),
+      values.data() + subset * count, shares.data());
+  }
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    double mean = 0;
+    double squares = 0;
+    for (std::size_t subset = 0; subset < SweepSubsets; ++subset)
+    {
+      const double value = values[subset * count + i];
+      mean += value / SweepSubsets;
+      squares += value * value;
+    }
+    const double variance = std::max(0.0, squares - SweepSubsets * mean * mean) /
+      (SweepSubsets - 1) / SweepSubsets;
+    const double area =
+      texelArea(side, static_cast<int>(i) / side) * static_cast<double>(shares[i]);
+    error.sum += area * variance;
+    error.area += area;
+  }
+  return error;
+}
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_SweepTextures_h
+#define po_SweepTextures_h
+
+#include "BackgroundIrradiance.h"
+#include "VisibilityRecords.h"
+
+#include <vector>
+
+namespace po
+{
+/// Makes textures out of what a sweep has summed.
+///
+/// A texel of the fine grid is sum(w V) / sum(w), the share of the open sky's light that arrives,
+/// times the irradiance of an open surface; both sums run over the points outside other spheres. An
+/// open texel is thus exactly 1 under the uniform background, a dark one exactly 0. Texels of the
+/// texture are means over the outside area of theirs.
+class SweepTextures
+{
+public:
+  SweepTextures(const VisibilityRecords& records, const Background& background);
+
+  /// Fills the T * T values and outside shares of a particle. Of a particle that was never seen the
+  /// shares are not looked for: values 0, shares 1.
+  void fill(unsigned particle, float* values, float* shares) const;
+
+  /// Area-weighted sum of the squared standard errors of a watched particle's texels, and the area.
+  struct SquaredError
+  {
+    double sum = 0;
+    double area = 0;
+  };
+  [[nodiscard]] SquaredError squaredError(unsigned particle) const;
+
+private:
+  /// What is common to all fine texels of one particle.
+  struct FineTexels
+  {
+    std::vector<float> irradiance; ///< [slots] of the open outside part
+    std::vector<float> share;      ///< [slots] outside share
+    std::vector<float> weight;     ///< [slots] sum(w)
+  };
+  [[nodiscard]] FineTexels fineTexels(const VisibilityRecord& record) const;
+
+  /// @param weight [slots], in place of that of the fine texels
+  void coarsen(const FineTexels& fine, const float* sums, const float* weight, float* values,
+    float* shares) const;
+
+  const VisibilityRecords& records_;
+  std::vector<float> irradiance_;     ///< [patterns][slots]
+  std::vector<float> openIrradiance_; ///< [slots], mean over the patterns
+  std::vector<double> areas_;         ///< of a fine texel, by row
+};
+}
+
+#endif
