@@ -126,6 +126,8 @@ def print_table(baked, display):
     rows = [
         ("particles", f"{bake_of('NumberOfParticles'):,}"),
         ("texels", f"{bake_of('NumberOfTexels'):,}"),
+        ("method", f"{bake_of('MethodUsed')}, {bake_of('NumberOfDirections'):,} directions"),
+        ("RMS error, estimated", f"{bake_of('EstimatedError'):.4f}"),
         ("occlusion rays", f"{bake_of('NumberOfRays'):,}"),
         ("skipped: samples inside", f"{bake_of('NumberOfSamplesInside'):,}"),
         ("skipped: texels inside", f"{bake_of('NumberOfTexelsInside'):,}"),

@@ -5,6 +5,7 @@
 #include "ErrorPilot.h"
 #include "ExrBackground.h"
 #include "ReferenceEstimator.h"
+#include "SweepEstimator.h"
 
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -63,21 +64,47 @@ std::string inGigabytes(double bytes)
   return text.str();
 }
 
-/// Says beforehand what would otherwise end in swapping or in a killed process.
-void requireMemory(std::size_t particles, const po::BakeSettings& settings)
+double freeMemory()
 {
   vtksys::SystemInformation system;
-  const double needed = po::bakeMemory(particles, settings);
-  const double available = 1024.0 *
-    (static_cast<double>(system.GetHostMemoryAvailable(nullptr)) -
-      static_cast<double>(system.GetHostMemoryUsed()));
+  const double kibibytes = static_cast<double>(system.GetHostMemoryAvailable(nullptr)) -
+    static_cast<double>(system.GetHostMemoryUsed());
+  return 1024.0 * std::max(kibibytes, 0.0);
+}
+
+/// Says beforehand what would otherwise end in swapping or in a killed process.
+void requireMemory(double needed, std::size_t particles)
+{
+  const double available = freeMemory();
   if (needed > available)
   {
     throw std::runtime_error("Baking " + std::to_string(particles) + " particles needs up to " +
-      inGigabytes(needed) + " of memory, but " + inGigabytes(std::max(available, 0.0)) +
-      " are free: lower TextureResolution, choose the Encoding UInt8Gamma2, or bake fewer "
-      "particles.");
+      inGigabytes(needed) + " of memory, but " + inGigabytes(available) +
+      " are free: lower TextureResolution, choose the Method Reference or the Encoding "
+      "UInt8Gamma2, "
+      "or bake fewer particles.");
   }
+}
+
+/// Reports to the user interface, which may stop the bake.
+po::Progress::Report reportTo(vtkAlgorithm* algorithm)
+{
+  return [algorithm](double share)
+  {
+    algorithm->UpdateProgress(share);
+    return !algorithm->CheckAbort();
+  };
+}
+
+/// Sweep is the faster one wherever its memory is there.
+int chooseMethod(int method, std::size_t particles, const po::BakeSettings& settings)
+{
+  if (method != vtkSphereAmbientOcclusion::Automatic)
+  {
+    return method;
+  }
+  const bool fits = po::bakeMemory(particles, settings, po::SweepEstimator()) <= freeMemory();
+  return fits ? vtkSphereAmbientOcclusion::Sweep : vtkSphereAmbientOcclusion::Reference;
 }
 }
 
@@ -87,6 +114,8 @@ struct vtkSphereAmbientOcclusion::Internals
   po::BakeCounters Counters;
   std::size_t LeftOut = 0;
   std::size_t TextureBytes = 0;
+  int Method = Automatic; ///< the one that was used
+  int Directions = 0;
   int SamplesUsed = 0;
   double EstimatedError = 0;
   double Seconds = 0;
@@ -100,6 +129,12 @@ struct vtkSphereAmbientOcclusion::Internals
     const po::BakeSettings& settings, const po::EncodedTable& table) const;
 
   void Bake(vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks);
+  po::BakeResult BakeBySweep(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
+    const po::BakeSettings& settings);
+
+  /// With a target error the samples that reach it are put into the settings.
+  po::BakeResult BakeByReference(
+    vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, po::BakeSettings& settings);
 };
 
 po::Background vtkSphereAmbientOcclusion::Internals::ReadBackground(vtkSphereAmbientOcclusion* self)
@@ -144,10 +179,10 @@ po::BakeSettings vtkSphereAmbientOcclusion::Internals::ReadSettings(vtkSphereAmb
   requireRange("Seed", self->Seed, 0, VTK_INT_MAX);
   requireNotNegative("MaximumDistance", self->MaximumDistance, " (0 = unbounded)");
   requireRange<int>("Method", self->Method, Automatic, Reference);
-  if (self->Method == Sweep || self->Method == Embree)
+  if (self->Method == Embree)
   {
-    throw std::invalid_argument(std::string("Method ") + MethodNames[self->Method] +
-      " is not in this version: choose Automatic or Reference.");
+    throw std::invalid_argument(
+      "Method Embree is not in this version: choose Automatic, Sweep or Reference.");
   }
   po::BakeSettings settings;
   settings.textureResolution = self->TextureResolution;
@@ -172,7 +207,7 @@ po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
 {
   po::OcclusionParameters parameters;
   parameters.Set("version", ContractVersion);
-  parameters.Set("method", MethodNames[Reference]);
+  parameters.Set("method", MethodNames[this->Method]);
   parameters.Set("resolution", settings.textureResolution);
   parameters.Set("samplesPerTexel", settings.samplesPerTexel);
   parameters.Set("seed", self->Seed);
@@ -202,6 +237,7 @@ po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
   }
   parameters.Set("targetError", self->TargetError);
   parameters.Set("estimatedError", this->EstimatedError);
+  parameters.Set("directions", this->Directions);
   return parameters;
 }
 
@@ -220,40 +256,55 @@ void vtkSphereAmbientOcclusion::Internals::Bake(
   {
     vtkWarningWithObjectMacro(self, << po::describe(cloud->rejected));
   }
-  requireMemory(cloud->spheres.size(), settings);
-
-  po::Progress progress(
-    [self](double share)
-    {
-      self->UpdateProgress(share);
-      return !self->CheckAbort();
-    });
-  const po::BakeScene scene(*cloud);
-  const po::ReferenceEstimator estimator;
-  if (self->TargetError > 0)
-  {
-    self->SetProgressText("Finding the samples that reach the target error");
-    const po::PilotResult pilot =
-      po::samplesForError(scene, settings, estimator, self->TargetError, progress);
-    settings.samplesPerTexel = pilot.samplesPerTexel;
-    this->EstimatedError = pilot.estimatedError;
-    if (!pilot.reached && !progress.aborted())
-    {
-      vtkWarningWithObjectMacro(self, << "TargetError " << self->TargetError
-                                      << " is out of reach: the largest number of samples leaves "
-                                      << pilot.estimatedError << ".");
-    }
-  }
-  this->SamplesUsed = settings.samplesPerTexel;
-  self->SetProgressText("Baking ambient occlusion");
-  const po::BakeResult result = po::bakeOcclusion(scene, settings, estimator, progress);
+  this->Method = chooseMethod(self->Method, cloud->spheres.size(), settings);
+  const po::BakeResult result = this->Method == Sweep
+    ? this->BakeBySweep(self, *cloud, settings)
+    : this->BakeByReference(self, *cloud, settings);
   if (result.aborted)
   {
     return;
   }
+  this->SamplesUsed = settings.samplesPerTexel;
   this->Counters = result.counters;
   this->TextureBytes = result.table.bytes.size() + result.table.floats.size() * sizeof(float);
+  if (self->TargetError > 0 && this->EstimatedError > self->TargetError)
+  {
+    vtkWarningWithObjectMacro(self, << "TargetError " << self->TargetError
+                                    << " is out of reach: the most that this method can do leaves "
+                                    << this->EstimatedError << ".");
+  }
   po::attachBake(blocks, *cloud, result, this->Describe(self, settings, result.table));
+}
+
+po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeBySweep(
+  vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, const po::BakeSettings& settings)
+{
+  po::SweepOptions options;
+  options.targetError = self->TargetError;
+  const po::SweepEstimator sweep(options);
+  requireMemory(po::bakeMemory(cloud.spheres.size(), settings, sweep), cloud.spheres.size());
+  po::Progress progress(reportTo(self));
+  po::BakeResult result = po::bakeOcclusion(po::BakeScene(cloud), settings, sweep, progress);
+  this->Directions = sweep.report().directions;
+  this->EstimatedError = sweep.report().estimatedError;
+  return result;
+}
+
+po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByReference(
+  vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, po::BakeSettings& settings)
+{
+  const po::ReferenceEstimator reference;
+  requireMemory(po::bakeMemory(cloud.spheres.size(), settings, reference), cloud.spheres.size());
+  const po::BakeScene scene(cloud);
+  po::Progress progress(reportTo(self));
+  if (self->TargetError > 0)
+  {
+    const po::PilotResult pilot =
+      po::samplesForError(scene, settings, reference, self->TargetError, progress);
+    settings.samplesPerTexel = pilot.samplesPerTexel;
+    this->EstimatedError = pilot.estimatedError;
+  }
+  return po::bakeOcclusion(scene, settings, reference, progress);
 }
 
 vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
@@ -368,6 +419,16 @@ vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextureBytes()
 int vtkSphereAmbientOcclusion::GetNumberOfThreads()
 {
   return static_cast<int>(this->Impl->Counters.threads);
+}
+
+const char* vtkSphereAmbientOcclusion::GetMethodUsed()
+{
+  return MethodNames[this->Impl->Method];
+}
+
+int vtkSphereAmbientOcclusion::GetNumberOfDirections()
+{
+  return this->Impl->Directions;
 }
 
 int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()

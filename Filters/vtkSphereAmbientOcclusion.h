@@ -83,8 +83,8 @@ public:
   ///@{
   /**
    * RMS error of linear visibility to reach, area-weighted over the set; 0 [default] = off. When
-   * set, it takes the place of SamplesPerTexel: a pilot bake of a part of the particles finds how
-   * many rays reach it. Below 1.
+   * set, it takes the place of SamplesPerTexel: Sweep adds directions until the spread of subsets
+   * of them says that it is reached, Reference finds the number of rays by a pilot bake. At most 1.
    */
   vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
@@ -92,14 +92,14 @@ public:
 
   enum MethodType
   {
-    Automatic = 0, ///< the best method that this version has for the input
-    Sweep = 1,     ///< not in this version
+    Automatic = 0, ///< Sweep, or Reference if the memory for Sweep is not there
+    Sweep = 1,     ///< exact visibility of all particles along directions that they share, no rays
     Embree = 2,    ///< not in this version
     Reference = 3  ///< jittered rays from every texel, one occlusion ray a sample
   };
 
   ///@{
-  /// How visibility is found [Automatic, which is Reference in this version].
+  /// How visibility is found [Automatic].
   vtkSetMacro(Method, int);
   vtkGetMacro(Method, int);
   ///@}
@@ -195,9 +195,11 @@ public:
   vtkIdType GetNumberOfParticlesLeftOut(); ///< no usable position or radius
   vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
   vtkIdType GetNumberOfTextureBytes();     ///< size of the table
+  const char* GetMethodUsed();             ///< what Automatic chose
+  int GetNumberOfDirections();             ///< of a sweep, 0 otherwise
   int GetNumberOfThreads();                ///< threads that took part
-  int GetNumberOfSamplesUsed(); ///< rays a texel; differs from SamplesPerTexel with TargetError
-  double GetEstimatedError();   ///< RMS error a texel that the pilot found, 0 without TargetError
+  int GetNumberOfSamplesUsed(); ///< differs from SamplesPerTexel with Reference and TargetError
+  double GetEstimatedError();   ///< RMS error of linear visibility, 0 where none was found
   double GetBakeSeconds();      ///< wall time of the whole execution
   ///@}
 

@@ -41,8 +41,8 @@ Vec3d cellMoment(const ImageBackground& image, int row, int column)
   for (int j = 0; j < pointsDown; ++j)
   {
     const double v = (row + (j + 0.5) / pointsDown) / CellRows;
-    const double solidAngle = std::sin(Pi * v) * Pi / CellRows / pointsDown * 2 * Pi / CellColumns /
-      pointsAlong;
+    const double solidAngle =
+      std::sin(Pi * v) * Pi / CellRows / pointsDown * 2 * Pi / CellColumns / pointsAlong;
     for (int i = 0; i < pointsAlong; ++i)
     {
       const TextureCoordinate at{ (column + (i + 0.5) / pointsAlong) / CellColumns, v };

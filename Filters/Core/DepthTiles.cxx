@@ -171,12 +171,12 @@ DepthTile DepthTiles::tile(std::size_t index) const
 {
   const auto columns = static_cast<std::size_t>(columns_);
   return { lowX_ + static_cast<float>(index % columns) * width_,
-    lowY_ + static_cast<float>(index / columns) * width_, width_,
-    entries_.data() + starts_[index], entries_.data() + starts_[index + 1] };
+    lowY_ + static_cast<float>(index / columns) * width_, width_, entries_.data() + starts_[index],
+    entries_.data() + starts_[index + 1] };
 }
 
-void sortByDepth(const DepthTile& tile, std::vector<std::uint64_t>& scratch,
-  std::vector<std::uint32_t>& order)
+void sortByDepth(
+  const DepthTile& tile, std::vector<std::uint64_t>& scratch, std::vector<std::uint32_t>& order)
 {
   const auto count = static_cast<std::size_t>(tile.last - tile.first);
   scratch.resize(count);

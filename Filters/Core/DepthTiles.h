@@ -94,8 +94,8 @@ private:
 };
 
 /// Order of a tile's spheres from the light downward; equal heights by id.
-void sortByDepth(const DepthTile& tile, std::vector<std::uint64_t>& scratch,
-  std::vector<std::uint32_t>& order);
+void sortByDepth(
+  const DepthTile& tile, std::vector<std::uint64_t>& scratch, std::vector<std::uint32_t>& order);
 }
 
 #endif

@@ -8,9 +8,9 @@ namespace po
 {
 namespace
 {
-constexpr float CellWidth = 1;       ///< in reaches
-constexpr float MostCells = 64;      ///< along a side
-constexpr float WideOccluder = 8;    ///< radius in cells from which on an occluder is wide
+constexpr float CellWidth = 1;    ///< in reaches
+constexpr float MostCells = 64;   ///< along a side
+constexpr float WideOccluder = 8; ///< radius in cells from which on an occluder is wide
 }
 
 void OccluderCells::begin(const DepthTile& tile, float reach)

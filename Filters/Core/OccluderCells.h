@@ -30,8 +30,8 @@ public:
 
   [[nodiscard]] const std::vector<Entry>& cellOf(const ProjectedSphere& receiver) const
   {
-    return cells_[static_cast<std::size_t>(cellIndex(receiver.y - lowY_) * side_ +
-      cellIndex(receiver.x - lowX_))];
+    return cells_[static_cast<std::size_t>(
+      cellIndex(receiver.y - lowY_) * side_ + cellIndex(receiver.x - lowX_))];
   }
   [[nodiscard]] const std::vector<Entry>& wide() const { return wide_; }
 

@@ -125,7 +125,8 @@ void BakeCounters::add(const BakeCounters& other)
   texturesStored += other.texturesStored;
 }
 
-double bakeMemory(std::size_t particles, const BakeSettings& settings)
+double bakeMemory(
+  std::size_t particles, const BakeSettings& settings, const OcclusionEstimator& estimator)
 {
   // Two hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
   constexpr double bytesPerSphere = 300;
@@ -133,7 +134,8 @@ double bakeMemory(std::size_t particles, const BakeSettings& settings)
     static_cast<double>(settings.textureResolution) * settings.textureResolution;
   // The linear table stays until it is encoded; the encoded one is copied into the data set.
   const double bytesPerTexel = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
-  return static_cast<double>(particles) * (bytesPerSphere + texels * bytesPerTexel);
+  return static_cast<double>(particles) *
+    (bytesPerSphere + texels * (bytesPerTexel + estimator.bytesPerTexel()));
 }
 
 BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,

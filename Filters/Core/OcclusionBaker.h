@@ -24,7 +24,8 @@ struct BakeResult
 /// Upper bound of the memory that a bake of `particles` needs at once, in bytes.
 ///
 /// Equal textures are stored once, so that the real need is often much smaller.
-[[nodiscard]] double bakeMemory(std::size_t particles, const BakeSettings& settings);
+[[nodiscard]] double bakeMemory(
+  std::size_t particles, const BakeSettings& settings, const OcclusionEstimator& estimator);
 
 /// Bakes the visibility of the background onto all spheres of a scene, in parallel.
 ///

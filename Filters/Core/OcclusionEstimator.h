@@ -64,6 +64,9 @@ public:
   virtual void estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const = 0;
+
+  /// Upper bound of the working memory, in bytes a texel of all particles.
+  [[nodiscard]] virtual double bytesPerTexel() const = 0;
 };
 }
 

@@ -22,6 +22,9 @@ public:
   void estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const override;
+
+  /// Textures are handed over while they are made.
+  [[nodiscard]] double bytesPerTexel() const override { return 0; }
 };
 }
 

@@ -104,8 +104,9 @@ void SphereSweep::project(Vec3d towardsLight, bool full, Workspace& work)
   {
     const Sphere& s = spheres[id];
     const Vec3d c = s.center().as<double>();
-    work.projected.push_back({ static_cast<float>(dot(c, basis.x)),
-      static_cast<float>(dot(c, basis.y)), static_cast<float>(dot(c, towardsLight)), s.radius, id });
+    work.projected.push_back(
+      { static_cast<float>(dot(c, basis.x)), static_cast<float>(dot(c, basis.y)),
+        static_cast<float>(dot(c, towardsLight)), s.radius, id });
   };
   if (full)
   {
@@ -134,8 +135,8 @@ void SphereSweep::sweepDirection(
     {
       const DepthTile tile = work.tiles.tile(i);
       work.tileSweep.run(tile, octaves_.largestRadius(octave), direction, work.hidden);
-      const auto receivers = static_cast<std::uint64_t>(std::count_if(tile.first, tile.last,
-        [](const TileSphere& s) { return s.role == TileRole::Receiver; }));
+      const auto receivers = static_cast<std::uint64_t>(std::count_if(
+        tile.first, tile.last, [](const TileSphere& s) { return s.role == TileRole::Receiver; }));
       reported += receivers;
       if (!progress.advance(receivers))
       {

@@ -18,8 +18,8 @@ class SphereSweep
 {
 public:
   /// @param distance light is blocked within it: local, infinite when unbounded
-  SphereSweep(
-    const BakeScene& scene, const Background& background, float distance, VisibilityRecords& records);
+  SphereSweep(const BakeScene& scene, const Background& background, float distance,
+    VisibilityRecords& records);
 
   /// Goes on with more directions, skipping those that the background makes black. Returns early
   /// when `progress` says so. A unit of progress is one sphere in one direction.

@@ -21,8 +21,8 @@ struct SweepReport
   bool reached = false;      ///< the target error, if there was one
 };
 
-/// Finds the visibility of all spheres at once along directions that all share, by going through the
-/// scene from the light downward: no rays, no epsilon.
+/// Finds the visibility of all spheres at once along directions that all share, by going through
+/// the scene from the light downward: no rays, no epsilon.
 ///
 /// For each direction the spheres are projected, sorted into tiles and by depth; a sphere starts
 /// with the texels that face the light and loses those behind the spheres in front of it. Each
@@ -44,6 +44,9 @@ public:
   void estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const override;
+
+  /// Of particles that are overlapped; others need 7 (see VisibilityRecords).
+  [[nodiscard]] double bytesPerTexel() const override { return 18; }
 
   /// Of the last estimate.
   [[nodiscard]] const SweepReport& report() const { return report_; }

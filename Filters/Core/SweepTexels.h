@@ -19,8 +19,8 @@ using GroupMask = std::uint16_t;
 ///
 /// The grid is that of the texture, or a whole multiple of it where the texture has fewer than 12
 /// rows: a handful of points would not do to tell hidden spheres. Patches of 4 x 4 texels make a
-/// group, since neighbours on the sphere face a direction, and are hidden, together. A texel's place
-/// in this order is its slot; patches that jut out of the grid leave empty slots.
+/// group, since neighbours on the sphere face a direction, and are hidden, together. A texel's
+/// place in this order is its slot; patches that jut out of the grid leave empty slots.
 class SweepTexels
 {
 public:

@@ -167,8 +167,8 @@ SweepTextures::SquaredError SweepTextures::squaredError(unsigned particle) const
       mean += value / SweepSubsets;
       squares += value * value;
     }
-    const double variance = std::max(0.0, squares - SweepSubsets * mean * mean) /
-      (SweepSubsets - 1) / SweepSubsets;
+    const double variance =
+      std::max(0.0, squares - SweepSubsets * mean * mean) / (SweepSubsets - 1) / SweepSubsets;
     const double area =
       texelArea(side, static_cast<int>(i) / side) * static_cast<double>(shares[i]);
     error.sum += area * variance;

@@ -21,7 +21,7 @@ struct PreparedCap
 {
   Vec3f axis;
   float cosine;
-  std::vector<float> allBuried; ///< above it the whole texel is inside the cap
+  std::vector<float> allBuried;  ///< above it the whole texel is inside the cap
   std::vector<float> someBuried; ///< at or above it a part is
 };
 
@@ -42,7 +42,8 @@ PreparedCap prepare(const BuriedCap& cap, const std::vector<double>& texelRadii)
 }
 
 /// The patterns whose point of a slot lies inside the cap.
-std::uint64_t buriedPatterns(const TexelPatterns& patterns, std::size_t slot, const PreparedCap& cap)
+std::uint64_t buriedPatterns(
+  const TexelPatterns& patterns, std::size_t slot, const PreparedCap& cap)
 {
   std::uint64_t buried = 0;
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
@@ -80,7 +81,8 @@ std::uint64_t exposedPatterns(const SweepTexels& texels, const TexelPatterns& pa
 }
 
 /// Sets the bits of a slot in all patterns.
-void setExposed(TexelExposure& exposure, std::size_t groups, std::size_t slot, std::uint64_t exposed)
+void setExposed(
+  TexelExposure& exposure, std::size_t groups, std::size_t slot, std::uint64_t exposed)
 {
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {

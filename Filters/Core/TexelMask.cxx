@@ -77,8 +77,7 @@ public:
     const auto climb = hn::Sub(height_, hn::LoadU(d, w));
     // The light enters the occluder at climb - sqrt(chord) above the point.
     const auto entry = hn::Sub(climb, hn::Sqrt(hn::Max(chord, zero)));
-    return hn::And(
-      hn::And(hn::Gt(chord, zero), hn::Gt(climb, zero)), hn::Lt(entry, distance_));
+    return hn::And(hn::And(hn::Gt(chord, zero), hn::Gt(climb, zero)), hn::Lt(entry, distance_));
   }
 
 private:

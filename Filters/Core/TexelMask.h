@@ -12,8 +12,8 @@ namespace po
 /// the receiver, relative to its centre.
 struct Occluder
 {
-  float a, b;                 ///< centre across
-  float height;               ///< centre towards the light, at least 0
+  float a, b;   ///< centre across
+  float height; ///< centre towards the light, at least 0
   float squaredRadius;
 };
 

@@ -15,8 +15,7 @@ constexpr std::uint8_t Listed = 1;
 constexpr std::uint8_t Watched = 2;
 
 /// Keeps the bits of exposed points; false if none is left.
-bool clearUnexposed(
-  const GroupMask* exposed, const FacingTexels& facing, GroupMask* mask)
+bool clearUnexposed(const GroupMask* exposed, const FacingTexels& facing, GroupMask* mask)
 {
   unsigned left = 0;
   for (std::size_t g = 0; g < facing.groups(); ++g)
@@ -128,8 +127,8 @@ std::unique_ptr<VisibilityRecord> VisibilityRecords::make(unsigned particle) con
   return record;
 }
 
-void VisibilityRecords::addMasks(VisibilityRecord& record,
-  const std::vector<FacingTexels>& directions, std::size_t subset) const
+void VisibilityRecords::addMasks(
+  VisibilityRecord& record, const std::vector<FacingTexels>& directions, std::size_t subset) const
 {
   for (std::size_t index = 0; index < directions.size(); ++index)
   {
@@ -185,8 +184,8 @@ void VisibilityRecords::nextEpoch()
         record.exposure = exposeTexels(texels_, patterns_, record.caps);
       }
     });
-  std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(),
-    open_.latestPatterns.begin(), open_.pastPatterns.begin(), std::plus<>());
+  std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(), open_.latestPatterns.begin(),
+    open_.pastPatterns.begin(), std::plus<>());
   std::fill(open_.latestPatterns.begin(), open_.latestPatterns.end(), 0.0f);
 }
 

@@ -15,7 +15,8 @@
 
 namespace po
 {
-/// Directions are swept in blocks of this many: in parallel, their masks kept, then summed in order.
+/// Directions are swept in blocks of this many: in parallel, their masks kept, then summed in
+/// order.
 inline constexpr std::size_t SweepBlock = 16;
 
 /// Interleaved subsets of directions whose spread is the error bar.
@@ -28,12 +29,12 @@ struct VisibilityRecord
   bool buried = false;
   bool watched = false; ///< its subsets are summed too
   std::vector<BuriedCap> caps;
-  TexelExposure exposure;                       ///< empty without caps
-  std::vector<float> sums;                      ///< [slots] weights of the directions that are seen
-  std::vector<float> pastWeights;               ///< [slots] of exposed points, of ended epochs
-  std::vector<GroupMask> masks;                 ///< [SweepBlock][groups] of the block at hand
-  std::array<std::uint8_t, SweepBlock> seen{};  ///< which of these masks are filled
-  std::vector<float> subsetSums;                ///< [SweepSubsets][slots] if watched
+  TexelExposure exposure;                      ///< empty without caps
+  std::vector<float> sums;                     ///< [slots] weights of the directions that are seen
+  std::vector<float> pastWeights;              ///< [slots] of exposed points, of ended epochs
+  std::vector<GroupMask> masks;                ///< [SweepBlock][groups] of the block at hand
+  std::array<std::uint8_t, SweepBlock> seen{}; ///< which of these masks are filled
+  std::vector<float> subsetSums;               ///< [SweepSubsets][slots] if watched
 };
 
 /// Weights that an open texel gets: what all records have in common.

@@ -273,8 +273,8 @@ const BadInput BadInputs[] = {
   { "ConstantRadius", [](auto* f, vtkPolyData*) { f->SetConstantRadius(-2); }, "ConstantRadius" },
   { "Seed", [](auto* f, vtkPolyData*) { f->SetSeed(-1); }, "Seed" },
   { "Encoding", [](auto* f, vtkPolyData*) { f->SetEncoding(7); }, "Encoding" },
-  { "MethodMissing", [](auto* f, vtkPolyData*) { f->SetMethod(vtkSphereAmbientOcclusion::Sweep); },
-    "Method Sweep is not in this version" },
+  { "MethodMissing", [](auto* f, vtkPolyData*) { f->SetMethod(vtkSphereAmbientOcclusion::Embree); },
+    "Method Embree is not in this version" },
   { "NoBackgroundFile",
     [](auto* f, vtkPolyData*) { f->SetBackground(vtkSphereAmbientOcclusion::Image); },
     "BackgroundImage is empty" },
@@ -434,15 +434,52 @@ TEST(SphereAmbientOcclusion, BlocksOccludeEachOther)
   }
 }
 
-TEST(SphereAmbientOcclusion, ATargetErrorChoosesTheSamples)
+TEST(SphereAmbientOcclusion, ATargetErrorChoosesTheWork)
 {
-  vtkNew<vtkSphereAmbientOcclusion> filter;
-  filter->SetInputData(lattice(5));
-  filter->SetTextureResolution(4);
-  filter->SetTargetError(0.01);
-  EXPECT_EQ(errorOf(filter), "");
-  EXPECT_GT(filter->GetNumberOfSamplesUsed(), 49);
-  EXPECT_LE(filter->GetEstimatedError(), 0.01);
-  EXPECT_GT(filter->GetEstimatedError(), 0);
+  for (const int method :
+    { vtkSphereAmbientOcclusion::Sweep, vtkSphereAmbientOcclusion::Reference })
+  {
+    vtkNew<vtkSphereAmbientOcclusion> filter;
+    filter->SetInputData(lattice(5));
+    filter->SetTextureResolution(4);
+    filter->SetMethod(method);
+    EXPECT_EQ(errorOf(filter), "");
+    const int directions = filter->GetNumberOfDirections();
+    filter->SetTargetError(0.01);
+    EXPECT_EQ(errorOf(filter), "");
+    EXPECT_LE(filter->GetEstimatedError(), 0.01);
+    EXPECT_GT(filter->GetEstimatedError(), 0);
+    const bool swept = method == vtkSphereAmbientOcclusion::Sweep;
+    EXPECT_TRUE(swept ? filter->GetNumberOfDirections() != directions
+                      : filter->GetNumberOfSamplesUsed() > 49);
+  }
+}
+
+TEST(SphereAmbientOcclusion, AllMethodsGiveTheSameValues)
+{
+  std::vector<double> means;
+  for (const int method : { vtkSphereAmbientOcclusion::Automatic, vtkSphereAmbientOcclusion::Sweep,
+         vtkSphereAmbientOcclusion::Reference })
+  {
+    vtkNew<vtkSphereAmbientOcclusion> filter;
+    filter->SetInputData(lattice(4));
+    filter->SetSamplesPerTexel(400);
+    filter->SetTextureResolution(6);
+    filter->SetMethod(method);
+    EXPECT_EQ(errorOf(filter), "");
+    auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
+    EXPECT_EQ(parameter(output->GetFieldData(), "method"), filter->GetMethodUsed());
+    vtkDataArray* mean = output->GetPointData()->GetArray("AmbientOcclusion");
+    for (vtkIdType i = 0; i < mean->GetNumberOfTuples(); ++i)
+    {
+      means.push_back(mean->GetComponent(i, 0));
+    }
+  }
+  ASSERT_EQ(means.size(), 3 * 64u);
+  for (std::size_t i = 0; i < 64; ++i)
+  {
+    EXPECT_EQ(means[i], means[i + 64]); // Automatic is Sweep
+    EXPECT_NEAR(means[i + 64], means[i + 128], 0.01);
+  }
 }
 }
