@@ -48,15 +48,14 @@ std::vector<unsigned> watchedParticles(std::vector<unsigned> particles, std::uin
 
 double estimatedError(const SweepTextures& textures, const std::vector<unsigned>& watched)
 {
-  double sum = 0;
-  double area = 0;
+  SweepTextures::SquaredError all;
   for (const unsigned particle : watched)
   {
     const SweepTextures::SquaredError error = textures.squaredError(particle);
-    sum += error.sum;
-    area += error.area;
+    all.sum += error.sum;
+    all.area += error.area;
   }
-  return area > 0 ? std::sqrt(sum / area) : 0;
+  return all.area > 0 ? std::sqrt(all.sum / all.area) : 0;
 }
 
 /// The error falls as D^-1/2 at worst; aim a little further and look again.
@@ -90,8 +89,8 @@ void sweepToTarget(SphereSweep& sweep, const VisibilityRecords& records,
 }
 
 /// Hands the textures out in the order of the list.
-void handOut(const SweepTextures& textures, const std::vector<unsigned>& particles, int resolution,
-  const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters)
+void handOut(const SweepTextures& textures, const std::vector<unsigned>& particles,
+  int resolution, const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters)
 {
   constexpr std::size_t valuesPerChunk = std::size_t(1) << 22;
   const auto texels = static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
@@ -104,8 +103,10 @@ void handOut(const SweepTextures& textures, const std::vector<unsigned>& particl
     values.resize(count * texels);
     shares.resize(count * texels);
     tbb::parallel_for(std::size_t(0), count,
-      [&](std::size_t i) {
-        textures.fill(particles[first + i], values.data() + i * texels, shares.data() + i * texels);
+      [&](std::size_t i)
+      {
+        textures.fill(
+          particles[first + i], values.data() + i * texels, shares.data() + i * texels);
       });
     counters.texelsInside +=
       static_cast<std::uint64_t>(std::count(shares.begin(), shares.end(), 0.0f));
@@ -117,7 +118,13 @@ void handOut(const SweepTextures& textures, const std::vector<unsigned>& particl
 
 int sweepDirectionsForSamples(int samplesPerTexel)
 {
-  return std::clamp(5 * samplesPerTexel, 16, SweepEstimator::MaximumDirections);
+  // Measured with 10,000 spheres of each family and a molecule: at equal error 49 rays stand for 85
+  // (pack) to 140 (molecule) directions, 16 rays for 35 to 50, 200 rays for 320 to 450. Jittered
+  // rays gain a little faster (N^-0.65) than directions (D^-0.55 to D^-0.65).
+  const double directions = 144 * std::pow(samplesPerTexel / 49.0, 0.9);
+  const double blocks = std::ceil(directions / SweepBlock);
+  return static_cast<int>(
+    std::clamp(blocks * SweepBlock, 16.0, double(SweepEstimator::MaximumDirections)));
 }
 
 void SweepEstimator::estimate(const BakeScene& scene, const std::vector<unsigned>& particles,

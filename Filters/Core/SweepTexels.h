@@ -14,13 +14,14 @@ namespace po
 /// Texels are handled in groups of this many, a bit each in a GroupMask.
 inline constexpr std::size_t GroupSize = 16;
 using GroupMask = std::uint16_t;
+inline constexpr GroupMask AllOfGroup = 0xFFFF;
 
 /// The texels that a sweep follows, and where in them it looks.
 ///
 /// The grid is that of the texture, or a whole multiple of it where the texture has fewer than 12
 /// rows: a handful of points would not do to tell hidden spheres. Patches of 4 x 4 texels make a
-/// group, since neighbours on the sphere face a direction, and are hidden, together. A texel's
-/// place in this order is its slot; patches that jut out of the grid leave empty slots.
+/// group, since neighbours on the sphere face a direction, and are hidden, together. A texel's place
+/// in this order is its slot; patches that jut out of the grid leave empty slots.
 class SweepTexels
 {
 public:

@@ -5,6 +5,7 @@
 #include "TexelMask.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace po
@@ -49,7 +50,7 @@ SweepTextures::FineTexels SweepTextures::fineTexels(const VisibilityRecord& reco
   const std::size_t groups = records_.texels().groups();
   FineTexels fine{ openIrradiance_, std::vector<float>(slots, 1.0f),
     records_.outsideWeights(record) };
-  if (record.caps.empty())
+  if (record.exposure.bits.empty())
   {
     return fine;
   }
@@ -159,20 +160,16 @@ SweepTextures::SquaredError SweepTextures::squaredError(unsigned particle) const
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    double mean = 0;
-    double squares = 0;
-    for (std::size_t subset = 0; subset < SweepSubsets; ++subset)
-    {
-      const double value = values[subset * count + i];
-      mean += value / SweepSubsets;
-      squares += value * value;
-    }
-    const double variance =
-      std::max(0.0, squares - SweepSubsets * mean * mean) / (SweepSubsets - 1) / SweepSubsets;
     const double area =
       texelArea(side, static_cast<int>(i) / side) * static_cast<double>(shares[i]);
-    error.sum += area * variance;
+    const std::array<double, SweepSubsets> v{ values[i], values[count + i], values[2 * count + i],
+      values[3 * count + i] };
+    const double mean = (v[0] + v[1] + v[2] + v[3]) / 4;
     error.area += area;
+    for (const double value : v)
+    {
+      error.sum += area * (value - mean) * (value - mean) / (4 * 3);
+    }
   }
   return error;
 }

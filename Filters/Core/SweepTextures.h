@@ -24,11 +24,13 @@ public:
   /// shares are not looked for: values 0, shares 1.
   void fill(unsigned particle, float* values, float* shares) const;
 
-  /// Area-weighted sum of the squared standard errors of a watched particle's texels, and the area.
+  /// Squared standard errors of a watched particle's texels, from the spread of the subsets of
+  /// directions as if these were independent: subsets of a lattice complement each other, so the
+  /// true error is at most that, and up to half of it where visibility is smooth.
   struct SquaredError
   {
-    double sum = 0;
-    double area = 0;
+    double sum = 0;  ///< weighted by outside area
+    double area = 0; ///< the sum of the weights
   };
   [[nodiscard]] SquaredError squaredError(unsigned particle) const;
 

@@ -12,7 +12,6 @@ namespace
 {
 constexpr double Pi = 3.14159265358979323846;
 constexpr std::uint64_t AllPatterns = ~std::uint64_t(0);
-constexpr GroupMask AllLanes = 0xFFFF;
 static_assert(TexelPatterns::Count == 64, "one bit for each pattern");
 
 /// A cap with what decides a whole texel: cosines of the angle between the axis and the texel's
@@ -21,7 +20,7 @@ struct PreparedCap
 {
   Vec3f axis;
   float cosine;
-  std::vector<float> allBuried;  ///< above it the whole texel is inside the cap
+  std::vector<float> allBuried; ///< above it the whole texel is inside the cap
   std::vector<float> someBuried; ///< at or above it a part is
 };
 
@@ -42,8 +41,7 @@ PreparedCap prepare(const BuriedCap& cap, const std::vector<double>& texelRadii)
 }
 
 /// The patterns whose point of a slot lies inside the cap.
-std::uint64_t buriedPatterns(
-  const TexelPatterns& patterns, std::size_t slot, const PreparedCap& cap)
+std::uint64_t buriedPatterns(const TexelPatterns& patterns, std::size_t slot, const PreparedCap& cap)
 {
   std::uint64_t buried = 0;
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
@@ -81,8 +79,7 @@ std::uint64_t exposedPatterns(const SweepTexels& texels, const TexelPatterns& pa
 }
 
 /// Sets the bits of a slot in all patterns.
-void setExposed(
-  TexelExposure& exposure, std::size_t groups, std::size_t slot, std::uint64_t exposed)
+void setExposed(TexelExposure& exposure, std::size_t groups, std::size_t slot, std::uint64_t exposed)
 {
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {
@@ -102,6 +99,7 @@ TexelExposure exposeTexels(
   TexelExposure exposure;
   const std::size_t groups = texels.groups();
   exposure.bits.assign(TexelPatterns::Count * groups, 0);
+  bool everywhereOpen = true;
   for (std::size_t group = 0; group < groups; ++group)
   {
     std::array<std::uint64_t, GroupSize> exposed{};
@@ -110,15 +108,22 @@ TexelExposure exposeTexels(
     {
       exposed[lane] = exposedPatterns(texels, patterns, group * GroupSize + lane, prepared);
       allOpen = allOpen && exposed[lane] == AllPatterns;
+      everywhereOpen = everywhereOpen &&
+        (exposed[lane] == AllPatterns || texels.texelOfSlot(group * GroupSize + lane) == SweepTexels::Empty);
     }
     for (std::size_t p = 0; p < TexelPatterns::Count && allOpen; ++p)
     {
-      exposure.bits[p * groups + group] = AllLanes;
+      exposure.bits[p * groups + group] = AllOfGroup;
     }
     for (std::size_t lane = 0; lane < GroupSize && !allOpen; ++lane)
     {
       setExposed(exposure, groups, group * GroupSize + lane, exposed[lane]);
     }
+  }
+  if (everywhereOpen)
+  {
+    exposure.bits.clear();
+    exposure.bits.shrink_to_fit();
   }
   return exposure;
 }

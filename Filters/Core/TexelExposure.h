@@ -13,7 +13,8 @@ namespace po
 /// Which points of a particle's texels lie outside all other spheres.
 struct TexelExposure
 {
-  std::vector<GroupMask> bits; ///< [TexelPatterns::Count][groups]; empty slots are 0
+  /// [TexelPatterns::Count][groups]; no elements at all where every point is outside
+  std::vector<GroupMask> bits;
 
   [[nodiscard]] const GroupMask* ofPattern(std::size_t pattern, std::size_t groups) const
   {

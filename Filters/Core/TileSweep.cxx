@@ -36,8 +36,7 @@ bool TileSweep::sees(const TileSphere& s, const SweptDirection& direction)
   const FacingTexels& facing = direction.facing;
   const unsigned id = s.sphere.id;
   mask_ = facing.facing;
-  if (!records_.clearKnownInside(id, direction.pattern, facing, mask_.data()) ||
-    !passes(cells_.cellOf(s.sphere), s.sphere, direction) ||
+  if (!passes(cells_.cellOf(s.sphere), s.sphere, direction) ||
     !passes(cells_.wide(), s.sphere, direction) ||
     !records_.clearInside(id, direction.pattern, facing, mask_.data()))
   {

@@ -15,7 +15,8 @@ constexpr std::uint8_t Listed = 1;
 constexpr std::uint8_t Watched = 2;
 
 /// Keeps the bits of exposed points; false if none is left.
-bool clearUnexposed(const GroupMask* exposed, const FacingTexels& facing, GroupMask* mask)
+bool clearUnexposed(
+  const GroupMask* exposed, const FacingTexels& facing, GroupMask* mask)
 {
   unsigned left = 0;
   for (std::size_t g = 0; g < facing.groups(); ++g)
@@ -48,18 +49,6 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepTexels& 
 
 VisibilityRecords::~VisibilityRecords() = default;
 
-bool VisibilityRecords::clearKnownInside(
-  unsigned particle, std::size_t pattern, const FacingTexels& facing, GroupMask* mask) const
-{
-  const VisibilityRecord* record = find(particle);
-  if (record == nullptr || (!record->buried && record->caps.empty()))
-  {
-    return true;
-  }
-  return !record->buried &&
-    clearUnexposed(record->exposure.ofPattern(pattern, texels_.groups()), facing, mask);
-}
-
 bool VisibilityRecords::clearInside(
   unsigned particle, std::size_t pattern, const FacingTexels& facing, GroupMask* mask)
 {
@@ -67,8 +56,12 @@ bool VisibilityRecords::clearInside(
   {
     return true; // only occludes: what shows of it inside others hides nothing that is outside
   }
-  findOrMake(particle);
-  return clearKnownInside(particle, pattern, facing, mask);
+  const VisibilityRecord& record = findOrMake(particle);
+  if (record.buried || record.exposure.bits.empty())
+  {
+    return !record.buried;
+  }
+  return clearUnexposed(record.exposure.ofPattern(pattern, texels_.groups()), facing, mask);
 }
 
 void VisibilityRecords::keep(
@@ -127,8 +120,8 @@ std::unique_ptr<VisibilityRecord> VisibilityRecords::make(unsigned particle) con
   return record;
 }
 
-void VisibilityRecords::addMasks(
-  VisibilityRecord& record, const std::vector<FacingTexels>& directions, std::size_t subset) const
+void VisibilityRecords::addMasks(VisibilityRecord& record,
+  const std::vector<FacingTexels>& directions, std::size_t subset) const
 {
   for (std::size_t index = 0; index < directions.size(); ++index)
   {
@@ -164,10 +157,13 @@ void VisibilityRecords::addBlock(const std::vector<FacingTexels>& directions,
 void VisibilityRecords::addPatternWeights(const VisibilityRecord& record,
   const std::vector<float>& patternWeights, std::vector<float>& sums) const
 {
+  const std::size_t groups = texels_.groups();
+  const bool allOutside = record.exposure.bits.empty();
+  const std::vector<GroupMask> all(allOutside ? groups : 0, AllOfGroup);
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {
-    addMasked(texels_.groups(), record.exposure.ofPattern(p, texels_.groups()),
-      patternWeights.data() + p * texels_.slots(), sums.data());
+    const GroupMask* exposed = allOutside ? all.data() : record.exposure.ofPattern(p, groups);
+    addMasked(groups, exposed, patternWeights.data() + p * texels_.slots(), sums.data());
   }
 }
 
@@ -184,8 +180,8 @@ void VisibilityRecords::nextEpoch()
         record.exposure = exposeTexels(texels_, patterns_, record.caps);
       }
     });
-  std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(), open_.latestPatterns.begin(),
-    open_.pastPatterns.begin(), std::plus<>());
+  std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(),
+    open_.latestPatterns.begin(), open_.pastPatterns.begin(), std::plus<>());
   std::fill(open_.latestPatterns.begin(), open_.latestPatterns.end(), 0.0f);
 }
 

@@ -15,8 +15,7 @@
 
 namespace po
 {
-/// Directions are swept in blocks of this many: in parallel, their masks kept, then summed in
-/// order.
+/// Directions are swept in blocks of this many: in parallel, their masks kept, then summed in order.
 inline constexpr std::size_t SweepBlock = 16;
 
 /// Interleaved subsets of directions whose spread is the error bar.
@@ -29,12 +28,12 @@ struct VisibilityRecord
   bool buried = false;
   bool watched = false; ///< its subsets are summed too
   std::vector<BuriedCap> caps;
-  TexelExposure exposure;                      ///< empty without caps
-  std::vector<float> sums;                     ///< [slots] weights of the directions that are seen
-  std::vector<float> pastWeights;              ///< [slots] of exposed points, of ended epochs
-  std::vector<GroupMask> masks;                ///< [SweepBlock][groups] of the block at hand
-  std::array<std::uint8_t, SweepBlock> seen{}; ///< which of these masks are filled
-  std::vector<float> subsetSums;               ///< [SweepSubsets][slots] if watched
+  TexelExposure exposure;                       ///< empty where every point is outside
+  std::vector<float> sums;                      ///< [slots] weights of the directions that are seen
+  std::vector<float> pastWeights;               ///< [slots] of exposed points, of ended epochs
+  std::vector<GroupMask> masks;                 ///< [SweepBlock][groups] of the block at hand
+  std::array<std::uint8_t, SweepBlock> seen{};  ///< which of these masks are filled
+  std::vector<float> subsetSums;                ///< [SweepSubsets][slots] if watched
 };
 
 /// Weights that an open texel gets: what all records have in common.
@@ -66,12 +65,8 @@ public:
   [[nodiscard]] const SweepTexels& texels() const { return texels_; }
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
-  /// Clears the bits of points that lie inside other spheres, as far as that is known already;
-  /// false if none is left. A cheap test before any other.
-  bool clearKnownInside(
-    unsigned particle, std::size_t pattern, const FacingTexels& facing, GroupMask* mask) const;
-
-  /// The same for a particle that is seen, maybe for the first time.
+  /// Clears the bits of points that lie inside other spheres, for a particle that is seen, maybe for
+  /// the first time; false if none is left.
   bool clearInside(
     unsigned particle, std::size_t pattern, const FacingTexels& facing, GroupMask* mask);
 

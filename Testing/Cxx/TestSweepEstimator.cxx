@@ -3,6 +3,7 @@
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
+#include "SyntheticSpheres.h"
 #include "TestScenes.h"
 #include "TexelMap.h"
 
@@ -54,7 +55,7 @@ void expectLikeReference(
   const po::SphereCloud cloud = cloudOf(spheres);
   const po::BakeScene scene(cloud);
   po::BakeSettings fine = settings;
-  fine.samplesPerTexel = 6000;
+  fine.samplesPerTexel = 4000;
   const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, fine);
   const Estimates ours = estimateAll(sweepOf(2048), scene, settings);
   const Difference difference = compare(ours, judge, settings.textureResolution);
@@ -109,6 +110,23 @@ TEST(SweepEstimator, AgreesWithAnIndependentJudge)
   const Difference difference = compare(ours, judge, 6);
   EXPECT_LT(difference.rms, 0.01);
   EXPECT_LT(std::abs(difference.bias), 0.002);
+}
+
+TEST(SweepEstimator, AgreesWithReferenceInAllFamilies)
+{
+  for (const po::SyntheticFamily family : { po::SyntheticFamily::Pack, po::SyntheticFamily::Overlap,
+         po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
+  {
+    SCOPED_TRACE(static_cast<int>(family));
+    const po::SyntheticSpheres made = po::MakeSyntheticSpheres(family, 150, 1);
+    std::vector<po::Sphere> spheres;
+    for (std::size_t i = 0; i < made.Radii.size(); ++i)
+    {
+      const auto& c = made.Centers[i];
+      spheres.push_back({ c[0], c[1], c[2], made.Radii[i] });
+    }
+    expectLikeReference(spheres, floatSettings(4, 49), 0.012);
+  }
 }
 
 TEST(SweepEstimator, AgreesWithReferenceAtAnyResolution)
@@ -268,7 +286,9 @@ TEST(SweepEstimator, AListGetsWhatTheWholeSetGets)
   ASSERT_EQ(values.size(), 3 * 64u);
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    EXPECT_EQ(values[i], all.values[list[i / 64] * 64 + i % 64]);
+    // Not the same bits: of particles that are not asked for, the parts inside others are not told
+    // apart, so that a few more of them count as occluders.
+    EXPECT_NEAR(values[i], all.values[list[i / 64] * 64 + i % 64], 0.05);
   }
 }
 }
