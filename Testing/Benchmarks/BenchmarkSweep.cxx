@@ -4,9 +4,9 @@
 /// Usage: BenchmarkSweep [--count N] [--judged N] [--distance D] [--samples N] [family or file]...
 ///
 /// A family is one of SyntheticSpheres; a file holds text lines "x y z radius". Errors are taken
-/// over a few particles against Reference with many more rays and another seed: area-weighted RMS of
-/// linear visibility over the outside part of the texels. The Reference's time is measured on the
-/// same particles and scaled to all. Seconds are those of the process: all threads together.
+/// over a few particles against Reference with many more rays and another seed: area-weighted RMS
+/// of linear visibility over the outside part of the texels. The Reference's time is measured on
+/// the same particles and scaled to all. Seconds are those of the process: all threads together.
 
 #include "OcclusionBaker.h"
 #include "Random.h"
@@ -146,9 +146,8 @@ void benchmark(const std::string& name, const Options& options)
   std::vector<unsigned> judged;
   for (std::size_t i = 0; i < options.judged; ++i)
   {
-    judged.push_back(static_cast<unsigned>(
-      (static_cast<double>(i) + 0.5) / static_cast<double>(options.judged) *
-      static_cast<double>(particles)));
+    judged.push_back(static_cast<unsigned>((static_cast<double>(i) + 0.5) /
+      static_cast<double>(options.judged) * static_cast<double>(particles)));
   }
   std::vector<unsigned> positions(judged.size());
   std::iota(positions.begin(), positions.end(), 0u);

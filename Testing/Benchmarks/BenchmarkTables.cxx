@@ -56,7 +56,8 @@ struct Row
   vtkIdType particles = 0;
   double bakeSeconds = 0;
   double bakeCpuSeconds = 0;
-  vtkIdType rays = 0;
+  std::string method;
+  int directions = 0;
   vtkIdType textures = 0;
   vtkIdType bytes = 0;
   double direct = 0;       ///< frames per second
@@ -157,7 +158,8 @@ Row measure(const DataSet& data)
   bake->Update();
   row.bakeCpuSeconds = cpuSeconds() - before;
   row.bakeSeconds = bake->GetBakeSeconds();
-  row.rays = bake->GetNumberOfRays();
+  row.method = bake->GetMethodUsed();
+  row.directions = bake->GetNumberOfDirections();
   row.textures = bake->GetNumberOfTextures();
   row.bytes = bake->GetNumberOfTextureBytes();
 
@@ -176,19 +178,16 @@ double percentSlower(double rate, double than)
 
 void printBakes(const std::vector<Row>& rows)
 {
-  std::cout
-    << "\nTime to generate and memory of textures (16 x 16 texels, 49 samples a texel)\n\n"
-       "| data | particles | s | CPU s | million rays | million rays / CPU s | textures | MB | "
-       "bytes a particle |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+  std::cout << "\nTime to generate and memory of textures (16 x 16 texels, 49 samples a texel)\n\n"
+               "| data | particles | method | directions | s | CPU s | textures | MB | bytes a "
+               "particle |\n| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   for (const Row& row : rows)
   {
-    const double millions = static_cast<double>(row.rays) / 1e6;
     const auto bytes = static_cast<double>(row.bytes);
-    std::cout << "| " << row.name << " | " << row.particles << " | " << std::setprecision(2)
-              << row.bakeSeconds << " | " << row.bakeCpuSeconds << " | " << std::setprecision(1)
-              << millions << " | " << std::setprecision(2) << millions / row.bakeCpuSeconds << " | "
-              << row.textures << " | " << std::setprecision(1) << bytes / 1e6 << " | "
-              << bytes / static_cast<double>(row.particles) << " |\n";
+    std::cout << "| " << row.name << " | " << row.particles << " | " << row.method << " | "
+              << row.directions << " | " << std::setprecision(2) << row.bakeSeconds << " | "
+              << row.bakeCpuSeconds << " | " << row.textures << " | " << std::setprecision(1)
+              << bytes / 1e6 << " | " << bytes / static_cast<double>(row.particles) << " |\n";
   }
 }
 
