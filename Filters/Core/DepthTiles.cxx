@@ -15,6 +15,8 @@ namespace
 constexpr double SpheresPerTile = 4096;
 /// In radii of the largest receiver: the halo, two radii on each side, stays a small part.
 constexpr float SmallestTileWidth = 16;
+constexpr float LargestTileWidth = 60; ///< so that the cells stay small
+constexpr double MostTilesPerSphere = 4;
 }
 
 RadiusOctaves::RadiusOctaves(const std::vector<Sphere>& spheres)
@@ -91,9 +93,14 @@ void DepthTiles::layOut(std::size_t receivers)
   const float extentX = highX_ - lowX_;
   const float extentY = highY_ - lowY_;
   const double area = static_cast<double>(extentX) * extentY;
-  const auto wanted =
-    static_cast<float>(std::sqrt(area * SpheresPerTile / static_cast<double>(receivers)));
-  width_ = std::max(wanted, SmallestTileWidth * reach_);
+  const auto count = static_cast<double>(receivers);
+  const auto wanted = static_cast<float>(std::sqrt(area * SpheresPerTile / count));
+  // A stray sphere far away must not make the tiles so wide that all others share one, as long as
+  // the number of tiles stays in proportion to the spheres.
+  const auto fewEnough = static_cast<float>(std::sqrt(area / (MostTilesPerSphere * count)));
+  const float longest = std::max(extentX, extentY) / static_cast<float>(count + 1);
+  width_ = std::max({ std::clamp(wanted, SmallestTileWidth * reach_, LargestTileWidth * reach_),
+    fewEnough, longest });
   columns_ = 1 + static_cast<int>(extentX / width_);
   rows_ = 1 + static_cast<int>(extentY / width_);
 }

@@ -89,8 +89,8 @@ void sweepToTarget(SphereSweep& sweep, const VisibilityRecords& records,
 }
 
 /// Hands the textures out in the order of the list.
-void handOut(const SweepTextures& textures, const std::vector<unsigned>& particles,
-  int resolution, const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters)
+void handOut(const SweepTextures& textures, const std::vector<unsigned>& particles, int resolution,
+  const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters)
 {
   constexpr std::size_t valuesPerChunk = std::size_t(1) << 22;
   const auto texels = static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
@@ -103,10 +103,8 @@ void handOut(const SweepTextures& textures, const std::vector<unsigned>& particl
     values.resize(count * texels);
     shares.resize(count * texels);
     tbb::parallel_for(std::size_t(0), count,
-      [&](std::size_t i)
-      {
-        textures.fill(
-          particles[first + i], values.data() + i * texels, shares.data() + i * texels);
+      [&](std::size_t i) {
+        textures.fill(particles[first + i], values.data() + i * texels, shares.data() + i * texels);
       });
     counters.texelsInside +=
       static_cast<std::uint64_t>(std::count(shares.begin(), shares.end(), 0.0f));

@@ -45,6 +45,13 @@ SweepTexels::SweepTexels(int textureResolution)
   {
     angularRadii_.push_back(texelAngularRadius(resolution_, row));
   }
+  allBits_.assign(PointsPerTexel * groups(), 0);
+  for (std::size_t i = 0; i < PointsPerTexel * slots(); ++i)
+  {
+    const bool exists = texelOfSlot_[i % slots()] != Empty;
+    GroupMask& mask = allBits_[i / GroupSize];
+    mask = static_cast<GroupMask>(mask | unsigned(exists) << (i % GroupSize));
+  }
 }
 
 TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std::uint32_t epoch)

@@ -16,12 +16,15 @@ inline constexpr std::size_t GroupSize = 16;
 using GroupMask = std::uint16_t;
 inline constexpr GroupMask AllOfGroup = 0xFFFF;
 
+/// Points that every texel has, one for each sweep direction in turn.
+inline constexpr std::size_t PointsPerTexel = 64;
+
 /// The texels that a sweep follows, and where in them it looks.
 ///
 /// The grid is that of the texture, or a whole multiple of it where the texture has fewer than 12
 /// rows: a handful of points would not do to tell hidden spheres. Patches of 4 x 4 texels make a
-/// group, since neighbours on the sphere face a direction, and are hidden, together. A texel's place
-/// in this order is its slot; patches that jut out of the grid leave empty slots.
+/// group, since neighbours on the sphere face a direction, and are hidden, together. A texel's
+/// place in this order is its slot; patches that jut out of the grid leave empty slots.
 class SweepTexels
 {
 public:
@@ -45,6 +48,9 @@ public:
   /// The largest angle between a texel's centre and its points, by row.
   [[nodiscard]] const std::vector<double>& angularRadii() const { return angularRadii_; }
 
+  /// A bit for each slot that is not empty, [TexelPatterns::Count][groups].
+  [[nodiscard]] const std::vector<GroupMask>& allBits() const { return allBits_; }
+
 private:
   int refinement_;
   int resolution_;
@@ -52,13 +58,14 @@ private:
   std::vector<int> rowOf_;
   std::vector<Vec3f> center_;
   std::vector<double> angularRadii_;
+  std::vector<GroupMask> allBits_;
 };
 
-/// Points on the texels: each texel has PatternCount of them, spread evenly over its area. Pattern
-/// p, the p-th point of every texel, serves a sweep direction.
+/// Points on the texels: each texel has PointsPerTexel of them, spread evenly over its area.
+/// Pattern p, the p-th point of every texel, serves a sweep direction.
 struct TexelPatterns
 {
-  static constexpr std::size_t Count = 64; ///< one bit each in 64
+  static constexpr std::size_t Count = PointsPerTexel;
 
   /// @param epoch patterns of different epochs interleave: together they are well spread too
   TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std::uint32_t epoch);

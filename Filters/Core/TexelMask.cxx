@@ -156,6 +156,30 @@ void addAll(std::size_t groups, const GroupMask* mask, const float* terms, float
     }
   }
 }
+
+void clearBuried(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
+  GroupMask* bits, std::size_t groups)
+{
+  const Floats d;
+  const auto x = hn::Set(d, axis.x);
+  const auto y = hn::Set(d, axis.y);
+  const auto z = hn::Set(d, axis.z);
+  const auto limit = hn::Set(d, cosine);
+  for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
+  {
+    unsigned buried = 0;
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+    {
+      const std::size_t i = patterns.index(pattern, group * GroupSize + lane);
+      const auto xy = hn::MulAdd(
+        hn::LoadU(d, patterns.y.data() + i), y, hn::Mul(hn::LoadU(d, patterns.x.data() + i), x));
+      const auto height = hn::MulAdd(hn::LoadU(d, patterns.z.data() + i), z, xy);
+      buried |= bitsOf(d, hn::Gt(height, limit)) << lane;
+    }
+    GroupMask& mask = bits[pattern * groups + group];
+    mask = static_cast<GroupMask>(mask & ~buried);
+  }
+}
 }
 HWY_AFTER_NAMESPACE();
 
@@ -166,6 +190,7 @@ HWY_EXPORT(hide);
 HWY_EXPORT(hideWithin);
 HWY_EXPORT(addFacing);
 HWY_EXPORT(addAll);
+HWY_EXPORT(clearBuried);
 
 bool hideTexels(const FacingTexels& facing, const Occluder& occluder, GroupMask* mask)
 {
@@ -176,6 +201,12 @@ bool hideTexelsWithin(
   const FacingTexels& facing, const Occluder& occluder, float distance, GroupMask* mask)
 {
   return HWY_DYNAMIC_DISPATCH(hideWithin)(facing, occluder, distance, mask);
+}
+
+void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
+  GroupMask* bits, std::size_t groups)
+{
+  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, axis, cosine, bits, groups);
 }
 
 void addWeights(const FacingTexels& facing, const GroupMask* mask, float* sums)

@@ -31,6 +31,12 @@ bool hideTexelsWithin(
 /// @param sums one for each slot
 void addWeights(const FacingTexels& facing, const GroupMask* mask, float* sums);
 
+/// Clears the bits of the points of one group that lie inside a cap of the unit sphere: those with
+/// normal . axis > cosine.
+/// @param bits [TexelPatterns::Count][groups]
+void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
+  GroupMask* bits, std::size_t groups);
+
 /// Adds the terms of the slots that are set to their sums; all arrays cover all groups.
 void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, float* sums);
 }

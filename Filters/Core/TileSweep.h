@@ -43,8 +43,14 @@ public:
 
 private:
   bool sees(const TileSphere& sphere, const SweptDirection& direction);
+  /// Clears what the occluders hide of a receiver; false if nothing is left of it.
   bool passes(const std::vector<OccluderCells::Entry>& occluders, const ProjectedSphere& receiver,
     const SweptDirection& direction);
+
+  /// The same for occluders whose squared distance across, in that of a touch, is in [nearest,
+  /// farthest).
+  bool passes(const std::vector<OccluderCells::Entry>& occluders, const ProjectedSphere& receiver,
+    const SweptDirection& direction, float nearest, float farthest);
 
   VisibilityRecords& records_;
   OccluderCells cells_;

@@ -14,9 +14,12 @@ namespace
 constexpr std::uint8_t Listed = 1;
 constexpr std::uint8_t Watched = 2;
 
+/// Caps of less than this share of the sphere are no overlaps: touching spheres have such by
+/// rounding. Their points count as outside, which changes a mean by no more than that share.
+constexpr double SmallestCap = 1e-5;
+
 /// Keeps the bits of exposed points; false if none is left.
-bool clearUnexposed(
-  const GroupMask* exposed, const FacingTexels& facing, GroupMask* mask)
+bool clearUnexposed(const GroupMask* exposed, const FacingTexels& facing, GroupMask* mask)
 {
   unsigned left = 0;
   for (std::size_t g = 0; g < facing.groups(); ++g)
@@ -36,6 +39,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepTexels& 
   , patterns_(texels, seed, 0)
   , listed_(std::move(listed))
   , records_(listed_.size())
+  , whole_(listed_.size())
 {
   open_.total.assign(texels.slots(), 0.0f);
   open_.subsets.assign(SweepSubsets * texels.slots(), 0.0f);
@@ -56,7 +60,16 @@ bool VisibilityRecords::clearInside(
   {
     return true; // only occludes: what shows of it inside others hides nothing that is outside
   }
+  if (whole_[particle].load(std::memory_order_relaxed) != 0)
+  {
+    return true;
+  }
   const VisibilityRecord& record = findOrMake(particle);
+  if (!record.buried && record.caps.empty())
+  {
+    whole_[particle].store(1, std::memory_order_relaxed);
+    return true;
+  }
   if (record.buried || record.exposure.bits.empty())
   {
     return !record.buried;
@@ -110,6 +123,9 @@ std::unique_ptr<VisibilityRecord> VisibilityRecords::make(unsigned particle) con
   {
     record->subsetSums.assign(SweepSubsets * texels_.slots(), 0.0f);
   }
+  overlaps.caps.erase(std::remove_if(overlaps.caps.begin(), overlaps.caps.end(),
+                        [](const BuriedCap& cap) { return (1 - cap.cosine) / 2 < SmallestCap; }),
+    overlaps.caps.end());
   if (!overlaps.caps.empty())
   {
     record->caps = std::move(overlaps.caps);
@@ -120,8 +136,8 @@ std::unique_ptr<VisibilityRecord> VisibilityRecords::make(unsigned particle) con
   return record;
 }
 
-void VisibilityRecords::addMasks(VisibilityRecord& record,
-  const std::vector<FacingTexels>& directions, std::size_t subset) const
+void VisibilityRecords::addMasks(
+  VisibilityRecord& record, const std::vector<FacingTexels>& directions, std::size_t subset) const
 {
   for (std::size_t index = 0; index < directions.size(); ++index)
   {
@@ -180,8 +196,8 @@ void VisibilityRecords::nextEpoch()
         record.exposure = exposeTexels(texels_, patterns_, record.caps);
       }
     });
-  std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(),
-    open_.latestPatterns.begin(), open_.pastPatterns.begin(), std::plus<>());
+  std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(), open_.latestPatterns.begin(),
+    open_.pastPatterns.begin(), std::plus<>());
   std::fill(open_.latestPatterns.begin(), open_.latestPatterns.end(), 0.0f);
 }
 

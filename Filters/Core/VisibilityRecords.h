@@ -15,7 +15,8 @@
 
 namespace po
 {
-/// Directions are swept in blocks of this many: in parallel, their masks kept, then summed in order.
+/// Directions are swept in blocks of this many: in parallel, their masks kept, then summed in
+/// order.
 inline constexpr std::size_t SweepBlock = 16;
 
 /// Interleaved subsets of directions whose spread is the error bar.
@@ -28,12 +29,12 @@ struct VisibilityRecord
   bool buried = false;
   bool watched = false; ///< its subsets are summed too
   std::vector<BuriedCap> caps;
-  TexelExposure exposure;                       ///< empty where every point is outside
-  std::vector<float> sums;                      ///< [slots] weights of the directions that are seen
-  std::vector<float> pastWeights;               ///< [slots] of exposed points, of ended epochs
-  std::vector<GroupMask> masks;                 ///< [SweepBlock][groups] of the block at hand
-  std::array<std::uint8_t, SweepBlock> seen{};  ///< which of these masks are filled
-  std::vector<float> subsetSums;                ///< [SweepSubsets][slots] if watched
+  TexelExposure exposure;                      ///< empty where every point is outside
+  std::vector<float> sums;                     ///< [slots] weights of the directions that are seen
+  std::vector<float> pastWeights;              ///< [slots] of exposed points, of ended epochs
+  std::vector<GroupMask> masks;                ///< [SweepBlock][groups] of the block at hand
+  std::array<std::uint8_t, SweepBlock> seen{}; ///< which of these masks are filled
+  std::vector<float> subsetSums;               ///< [SweepSubsets][slots] if watched
 };
 
 /// Weights that an open texel gets: what all records have in common.
@@ -65,8 +66,8 @@ public:
   [[nodiscard]] const SweepTexels& texels() const { return texels_; }
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
-  /// Clears the bits of points that lie inside other spheres, for a particle that is seen, maybe for
-  /// the first time; false if none is left.
+  /// Clears the bits of points that lie inside other spheres, for a particle that is seen, maybe
+  /// for the first time; false if none is left.
   bool clearInside(
     unsigned particle, std::size_t pattern, const FacingTexels& facing, GroupMask* mask);
 
@@ -108,6 +109,9 @@ private:
   OpenWeights open_;
   std::vector<std::uint8_t> listed_; ///< 1: listed, 2: watched too
   std::vector<std::atomic<VisibilityRecord*>> records_;
+  /// 1 for particles that are known to have no part inside others: their records, which are far
+  /// apart in memory, need not be read.
+  std::vector<std::atomic<std::uint8_t>> whole_;
   tbb::concurrent_vector<std::unique_ptr<VisibilityRecord>> owned_;
 };
 }
