@@ -31,7 +31,6 @@
 
 namespace
 {
-
 constexpr const char* Usage = "usage: GenerateParticles FAMILY COUNT FILE.vtp [SEED]\n"
                               "  FAMILY  pack, overlap, gas, shell or foam\n"
                               "  COUNT   number of spheres, at least 1\n"
@@ -40,13 +39,13 @@ constexpr const char* Usage = "usage: GenerateParticles FAMILY COUNT FILE.vtp [S
 
 struct Request
 {
-  po::SyntheticFamily Family;
-  std::size_t Count;
-  std::filesystem::path File;
-  std::uint64_t Seed = 1;
+  po::SyntheticFamily family;
+  std::size_t count;
+  std::filesystem::path file;
+  std::uint64_t seed = 1;
 };
 
-std::uint64_t ParseNumber(const std::string& text, const char* what)
+std::uint64_t parseNumber(const std::string& text, const char* what)
 {
   std::uint64_t value = 0;
   const char* end = text.data() + text.size();
@@ -58,35 +57,35 @@ std::uint64_t ParseNumber(const std::string& text, const char* what)
   return value;
 }
 
-Request ParseArguments(int argc, char* argv[])
+Request parseArguments(int argc, char* argv[])
 {
   if (argc != 4 && argc != 5)
   {
     throw std::invalid_argument("three or four arguments are expected");
   }
-  const auto family = po::SyntheticFamilyFromName(argv[1]);
+  const auto family = po::syntheticFamilyFromName(argv[1]);
   if (!family)
   {
     throw std::invalid_argument("there is no family '" + std::string(argv[1]) + "'");
   }
-  Request request{ *family, ParseNumber(argv[2], "COUNT"), argv[3] };
-  if (request.Count == 0)
+  Request request{ *family, parseNumber(argv[2], "COUNT"), argv[3] };
+  if (request.count == 0)
   {
     throw std::invalid_argument("COUNT must be at least 1");
   }
-  if (request.File.extension() != ".vtp")
+  if (request.file.extension() != ".vtp")
   {
     throw std::invalid_argument("FILE must end in .vtp");
   }
   if (argc == 5)
   {
-    request.Seed = ParseNumber(argv[4], "SEED");
+    request.seed = parseNumber(argv[4], "SEED");
   }
   return request;
 }
 
 /// One vertex cell a point, as most readers of particle files make it.
-vtkSmartPointer<vtkCellArray> MakeVertices(vtkIdType count)
+vtkSmartPointer<vtkCellArray> makeVertices(vtkIdType count)
 {
   vtkNew<vtkIdTypeArray> offsets;
   vtkNew<vtkIdTypeArray> points;
@@ -99,30 +98,30 @@ vtkSmartPointer<vtkCellArray> MakeVertices(vtkIdType count)
   return vertices;
 }
 
-vtkSmartPointer<vtkPolyData> MakePolyData(const po::SyntheticSpheres& spheres)
+vtkSmartPointer<vtkPolyData> makePolyData(const po::SyntheticSpheres& spheres)
 {
-  const auto count = static_cast<vtkIdType>(spheres.Radii.size());
+  const auto count = static_cast<vtkIdType>(spheres.radii.size());
   vtkNew<vtkPoints> points; // single precision, as the spheres
   points->SetNumberOfPoints(count);
   auto* xyz = static_cast<float*>(points->GetVoidPointer(0));
-  for (const auto& center : spheres.Centers)
+  for (const auto& center : spheres.centers)
   {
     xyz = std::copy(center.begin(), center.end(), xyz);
   }
   vtkNew<vtkFloatArray> radius;
   radius->SetName("radius");
   radius->SetNumberOfValues(count);
-  std::copy(spheres.Radii.begin(), spheres.Radii.end(), radius->Begin());
+  std::copy(spheres.radii.begin(), spheres.radii.end(), radius->Begin());
 
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
-  data->SetVerts(MakeVertices(count));
+  data->SetVerts(makeVertices(count));
   data->GetPointData()->AddArray(radius);
   return data;
 }
 
 /// Writes beside the file and renames, so that an interrupted run leaves no half file.
-void Write(vtkPolyData* data, const std::filesystem::path& file)
+void writeFile(vtkPolyData* data, const std::filesystem::path& file)
 {
   std::filesystem::path part = file;
   part += ".part";
@@ -145,17 +144,16 @@ void Write(vtkPolyData* data, const std::filesystem::path& file)
   throw std::runtime_error("cannot write '" + file.string() +
     "': check that its folder exists, may be written to and has space left");
 }
-
-} // namespace
+}
 
 int main(int argc, char* argv[])
 {
   vtkObject::GlobalWarningDisplayOff(); // what fails is reported here, once
   try
   {
-    const Request request = ParseArguments(argc, argv);
-    Write(MakePolyData(po::MakeSyntheticSpheres(request.Family, request.Count, request.Seed)),
-      request.File);
+    const Request request = parseArguments(argc, argv);
+    writeFile(makePolyData(po::makeSyntheticSpheres(request.family, request.count, request.seed)),
+      request.file);
     return EXIT_SUCCESS;
   }
   catch (const std::invalid_argument& error)

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/**
- * @file
- * Synthetic particle data for tests and benchmarks: five families of spheres at any size.
- *
- * Every family gives exactly the count that is asked for, equal radii, finite coordinates (lengths
- * are in spacings of the lattice, and a gas particle has the diameter 1) and, for one seed, the
- * same bits on every run. The families differ in what they ask of an occlusion baker: from "nearly
- * all is buried" (Pack, Overlap) over "all is near a surface" (Shell, Foam) to "nearly all sees
- * nearly all" (Gas).
- */
-#pragma once
+#ifndef po_SyntheticSpheres_h
+#define po_SyntheticSpheres_h
+
+/// Synthetic particle data for tests and benchmarks: five families of spheres at any size.
+///
+/// Every family gives exactly the count that is asked for, equal radii, finite coordinates (lengths
+/// are in spacings of the lattice, and a gas particle has the diameter 1) and, for one seed, the
+/// same bits on every run. The families differ in what they ask of an occlusion baker: from "nearly
+/// all is buried" (Pack, Overlap) over "all is near a surface" (Shell, Foam) to "nearly all sees
+/// nearly all" (Gas).
 
 #include <array>
 #include <cstddef>
@@ -20,7 +19,6 @@
 
 namespace po
 {
-
 enum class SyntheticFamily
 {
   /// A ball of touching spheres on the face-centred cubic lattice: integer coordinates of even sum,
@@ -64,17 +62,18 @@ inline constexpr std::size_t LargestSyntheticCount = 1'000'000'000;
 
 struct SyntheticSpheres
 {
-  std::vector<std::array<float, 3>> Centers; ///< [N] x, y, z
-  std::vector<float> Radii;                  ///< [N]
+  std::vector<std::array<float, 3>> centers; ///< [N] x, y, z
+  std::vector<float> radii;                  ///< [N]
 };
 
 /// "pack", "overlap", "gas", "shell" or "foam"; nothing for any other name.
-[[nodiscard]] std::optional<SyntheticFamily> SyntheticFamilyFromName(std::string_view name);
+[[nodiscard]] std::optional<SyntheticFamily> syntheticFamilyFromName(std::string_view name);
 
 /// `count` spheres of a family, 0 to LargestSyntheticCount; Pack has nothing random and ignores the
 /// seed. Throws std::length_error for a larger count and std::bad_alloc when memory does not
 /// suffice (Foam needs most: about 100 bytes a sphere).
-[[nodiscard]] SyntheticSpheres MakeSyntheticSpheres(
+[[nodiscard]] SyntheticSpheres makeSyntheticSpheres(
   SyntheticFamily family, std::size_t count, std::uint64_t seed);
+}
 
-} // namespace po
+#endif

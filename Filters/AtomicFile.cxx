@@ -12,8 +12,7 @@ namespace po
 {
 namespace
 {
-
-fs::path FollowLink(const fs::path& path)
+fs::path followLink(const fs::path& path)
 {
   std::error_code ignored;
   if (!fs::is_symlink(path, ignored))
@@ -25,8 +24,8 @@ fs::path FollowLink(const fs::path& path)
   return error ? path : real;
 }
 
-// What a rename would silently replace although the user could not have written to it.
-std::string ReasonNotToReplace(const fs::path& target)
+/// What a rename would silently replace although the user could not have written to it.
+std::string reasonNotToReplace(const fs::path& target)
 {
   std::error_code error;
   const fs::file_status status = fs::status(target, error);
@@ -49,7 +48,7 @@ std::string ReasonNotToReplace(const fs::path& target)
   return {};
 }
 
-fs::path PartialName(const fs::path& target)
+fs::path partialName(const fs::path& target)
 {
   std::random_device entropy;
   fs::path partial = target;
@@ -57,91 +56,89 @@ fs::path PartialName(const fs::path& target)
   return partial;
 }
 
-std::string SystemReason(int code)
+std::string systemReason(int code)
 {
   return code ? std::generic_category().message(code) : std::string("unknown reason");
 }
-
 }
 
 AtomicFile::AtomicFile(const std::string& target)
-  : Target(FollowLink(target))
-  , Partial(PartialName(Target))
+  : target_(followLink(target))
+  , partial_(partialName(target_))
 {
-  const std::string reason = ReasonNotToReplace(this->Target);
+  const std::string reason = reasonNotToReplace(target_);
   if (!reason.empty())
   {
-    throw std::runtime_error("Cannot write \"" + this->Target.string() + "\": " + reason + ".");
+    throw std::runtime_error("Cannot write \"" + target_.string() + "\": " + reason + ".");
   }
   errno = 0;
-  this->Stream.open(this->Partial, std::ios::binary | std::ios::trunc);
-  if (!this->Stream)
+  stream_.open(partial_, std::ios::binary | std::ios::trunc);
+  if (!stream_)
   {
-    throw std::runtime_error("Cannot write \"" + this->Target.string() +
-      "\": " + SystemReason(errno) + "; check that the folder exists and is writable.");
+    throw std::runtime_error("Cannot write \"" + target_.string() + "\": " + systemReason(errno) +
+      "; check that the folder exists and is writable.");
   }
 }
 
 AtomicFile::~AtomicFile()
 {
-  this->Stream.close();
+  stream_.close();
   std::error_code ignored;
-  fs::remove(this->Partial, ignored);
+  fs::remove(partial_, ignored);
 }
 
-void AtomicFile::Fail(const char* action)
+void AtomicFile::fail(const char* action)
 {
-  if (this->Failure.empty())
+  if (failure_.empty())
   {
-    this->Failure = "Cannot write \"" + this->Target.string() + "\": " + action +
-      " failed: " + SystemReason(errno) +
+    failure_ = "Cannot write \"" + target_.string() + "\": " + action +
+      " failed: " + systemReason(errno) +
       "; free space or choose another folder. Nothing was changed on disk.";
   }
-  throw std::runtime_error(this->Failure);
+  throw std::runtime_error(failure_);
 }
 
-void AtomicFile::Write(const char* bytes, std::streamsize count)
+void AtomicFile::write(const char* bytes, std::streamsize count)
 {
   errno = 0;
-  if (!this->Stream.write(bytes, count))
+  if (!stream_.write(bytes, count))
   {
-    this->Fail("writing");
+    fail("writing");
   }
 }
 
-void AtomicFile::Seek(std::streamoff position)
+void AtomicFile::seek(std::streamoff position)
 {
   errno = 0;
-  if (!this->Stream.seekp(position))
+  if (!stream_.seekp(position))
   {
-    this->Fail("writing");
+    fail("writing");
   }
 }
 
-std::streamoff AtomicFile::Position() noexcept
+std::streamoff AtomicFile::position() noexcept
 {
-  const std::streamoff position = this->Stream.tellp();
+  const std::streamoff position = stream_.tellp();
   return position < 0 ? 0 : position;
 }
 
-void AtomicFile::Commit()
+void AtomicFile::commit()
 {
   errno = 0;
-  if (this->Failure.empty())
+  if (failure_.empty())
   {
-    this->Stream.close();
+    stream_.close();
   }
-  if (!this->Failure.empty() || !this->Stream)
+  if (!failure_.empty() || !stream_)
   {
-    this->Fail("writing");
+    fail("writing");
   }
   std::error_code error;
-  fs::rename(this->Partial, this->Target, error);
+  fs::rename(partial_, target_, error);
   if (error)
   {
     errno = error.value();
-    this->Fail("renaming the finished file");
+    fail("renaming the finished file");
   }
 }
-
 }

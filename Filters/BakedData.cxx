@@ -134,7 +134,7 @@ void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offs
   block->GetPointData()->AddArray(mean);
   block->GetPointData()->AddArray(index);
   block->GetFieldData()->AddArray(copyTable(result.table, selection.used()));
-  parameters.ToFieldData(block->GetFieldData());
+  parameters.toFieldData(block->GetFieldData());
 }
 }
 

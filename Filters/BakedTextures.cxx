@@ -46,15 +46,15 @@ bool operator==(const TableFormat& a, const TableFormat& b)
 
 TableFormat readFormat(vtkFieldData* fields)
 {
-  const OcclusionParameters parameters = OcclusionParameters::FromFieldData(fields);
+  const OcclusionParameters parameters = OcclusionParameters::fromFieldData(fields);
   TableFormat format;
-  const long long resolution = parameters.GetInteger("resolution");
+  const long long resolution = parameters.getInteger("resolution");
   if (resolution < 1 || resolution > 4096)
   {
     fail(ParametersArray, "has a resolution out of range (" + std::to_string(resolution) + ")");
   }
   format.resolution = static_cast<int>(resolution);
-  const std::string& encoding = parameters.Get("encoding");
+  const std::string& encoding = parameters.get("encoding");
   format.bytes = encoding == UInt8Gamma2;
   if (!format.bytes && encoding != Float32Linear)
   {
@@ -62,7 +62,7 @@ TableFormat readFormat(vtkFieldData* fields)
   }
   if (format.bytes)
   {
-    format.maximum = parameters.GetDouble("maximum");
+    format.maximum = parameters.getDouble("maximum");
     if (!(format.maximum >= 0) || !std::isfinite(format.maximum))
     {
       fail(ParametersArray, "has a maximum that is negative or not finite");
@@ -259,12 +259,12 @@ void attachMergedTable(
     }
     appendRows(part, static_cast<std::int32_t>(offset), rows);
   }
-  OcclusionParameters description = OcclusionParameters::FromFieldData(parameters);
+  OcclusionParameters description = OcclusionParameters::fromFieldData(parameters);
   if (!copyAsIs)
   {
-    description.Set("encoding", Float32Linear);
+    description.set("encoding", Float32Linear);
   }
-  description.ToFieldData(merged->GetFieldData());
+  description.toFieldData(merged->GetFieldData());
   merged->GetFieldData()->AddArray(table);
   merged->GetPointData()->AddArray(rows);
 }

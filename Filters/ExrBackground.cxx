@@ -23,22 +23,21 @@ namespace po
 {
 namespace
 {
-
-// 16384 x 8192: the largest panoramas in use; half a gigabyte of luminance.
+/// 16384 x 8192: the largest panoramas in use; half a gigabyte of luminance.
 constexpr ExrLimits Limits = { 1 << 16, 1 << 16, 1 << 13, std::int64_t{ 1 } << 27 };
 
-// Rows that are decoded at a time: what ZIP, PIZ and DWA compress together, times two.
+/// Rows that are decoded at a time: what ZIP, PIZ and DWA compress together, times two.
 constexpr int RowsAtATime = 64;
 
 struct WeightedChannel
 {
-  std::string Name;
-  double Weight;
+  std::string name;
+  double weight;
 };
 using LuminanceChannels = std::vector<WeightedChannel>;
 
-// Luminance is row Y of the RGB to XYZ matrix that the primaries and the white point define.
-LuminanceChannels RgbChannels(const Imf::Header& header)
+/// Luminance is row Y of the RGB to XYZ matrix that the primaries and the white point define.
+LuminanceChannels rgbChannels(const Imf::Header& header)
 {
   if (!Imf::hasChromaticities(header))
   {
@@ -48,12 +47,12 @@ LuminanceChannels RgbChannels(const Imf::Header& header)
   return { { "R", toXyz[0][1] }, { "G", toXyz[1][1] }, { "B", toXyz[2][1] } };
 }
 
-LuminanceChannels ChooseChannels(const Imf::Header& header)
+LuminanceChannels chooseChannels(const Imf::Header& header)
 {
   const Imf::ChannelList& channels = header.channels();
   if (channels.findChannel("R") && channels.findChannel("G") && channels.findChannel("B"))
   {
-    return RgbChannels(header);
+    return rgbChannels(header);
   }
   if (channels.findChannel("Y"))
   {
@@ -70,7 +69,7 @@ LuminanceChannels ChooseChannels(const Imf::Header& header)
   return single.size() == 1 ? single : LuminanceChannels{};
 }
 
-std::string ChannelNames(const Imf::MultiPartInputFile& file)
+std::string channelNames(const Imf::MultiPartInputFile& file)
 {
   std::string names;
   for (int part = 0; part < file.parts(); ++part)
@@ -84,151 +83,149 @@ std::string ChannelNames(const Imf::MultiPartInputFile& file)
   return names.empty() ? "none" : names;
 }
 
-bool IsDeep(const Imf::Header& header)
+bool isDeep(const Imf::Header& header)
 {
   return header.hasType() && Imf::isDeepData(header.type());
 }
 
-int ChoosePart(const std::string& fileName, const Imf::MultiPartInputFile& file)
+int choosePart(const std::string& fileName, const Imf::MultiPartInputFile& file)
 {
   bool deep = false;
   for (int part = 0; part < file.parts(); ++part)
   {
     const Imf::Header& header = file.header(part);
-    deep = deep || IsDeep(header);
-    if (!IsDeep(header) && !ChooseChannels(header).empty())
+    deep = deep || isDeep(header);
+    if (!isDeep(header) && !chooseChannels(header).empty())
     {
       return part;
     }
   }
-  RefuseExr(fileName,
+  refuseExr(fileName,
     deep ? "it holds a deep image; flatten it first."
-         : "it has neither R, G, B nor Y nor one single channel but these: " + ChannelNames(file) +
+         : "it has neither R, G, B nor Y nor one single channel but these: " + channelNames(file) +
         "; write it with R, G, B.");
 }
 
-void RequireWholeSphere(
+void requireWholeSphere(
   const std::string& fileName, const Imf::Header& header, const LuminanceChannels& channels)
 {
   if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
   {
-    RefuseExr(fileName, "it is a cube map; convert it to latitude/longitude.");
+    refuseExr(fileName, "it is a cube map; convert it to latitude/longitude.");
   }
   if (header.dataWindow() != header.displayWindow())
   {
-    RefuseExr(fileName,
+    refuseExr(fileName,
       "its data window differs from its display window, so that it does not cover the whole "
       "sphere; "
       "write it uncropped.");
   }
   for (const WeightedChannel& channel : channels)
   {
-    const Imf::Channel& stored = header.channels()[channel.Name];
+    const Imf::Channel& stored = header.channels()[channel.name];
     if (stored.xSampling != 1 || stored.ySampling != 1)
     {
-      RefuseExr(
-        fileName, "its channel " + channel.Name + " is subsampled; write it at full resolution.");
+      refuseExr(
+        fileName, "its channel " + channel.name + " is subsampled; write it at full resolution.");
     }
   }
 }
 
-// Reads and weighs a block of rows at a time. The result grows with what was really read, so that a
-// damaged size in the header cannot ask for more memory than the file justifies.
+/// Reads and weighs a block of rows at a time. The result grows with what was really read, so that
+/// a damaged size in the header cannot ask for more memory than the file justifies.
 class LuminanceReader
 {
 public:
   LuminanceReader(Imf::InputPart& part, const LuminanceChannels& channels)
-    : Part(part)
-    , Channels(channels)
-    , Window(part.header().dataWindow())
-    , Width(Window.max.x - Window.min.x + 1)
+    : part_(part)
+    , channels_(channels)
+    , window_(part.header().dataWindow())
+    , width_(window_.max.x - window_.min.x + 1)
   {
   }
 
-  void Append(int firstRow, std::vector<float>& luminance)
+  void append(int firstRow, std::vector<float>& luminance)
   {
-    const int lastRow = std::min(firstRow + RowsAtATime - 1, this->Window.max.y);
-    const std::size_t pixels = std::size_t(this->Width) * (lastRow - firstRow + 1);
-    this->Read(firstRow, lastRow, pixels);
+    const int lastRow = std::min(firstRow + RowsAtATime - 1, window_.max.y);
+    const std::size_t pixels = std::size_t(width_) * (lastRow - firstRow + 1);
+    read(firstRow, lastRow, pixels);
     const std::size_t start = luminance.size();
     luminance.resize(start + pixels);
     for (std::size_t pixel = 0; pixel < pixels; ++pixel)
     {
       double sum = 0.0;
-      for (std::size_t channel = 0; channel < this->Channels.size(); ++channel)
+      for (std::size_t channel = 0; channel < channels_.size(); ++channel)
       {
-        sum += this->Channels[channel].Weight * this->Rows[channel * pixels + pixel];
+        sum += channels_[channel].weight * rows_[channel * pixels + pixel];
       }
       luminance[start + pixel] = static_cast<float>(sum);
     }
   }
 
 private:
-  void Read(int firstRow, int lastRow, std::size_t pixels)
+  void read(int firstRow, int lastRow, std::size_t pixels)
   {
-    this->Rows.resize(pixels * this->Channels.size());
+    rows_.resize(pixels * channels_.size());
     Imf::FrameBuffer frame;
-    for (std::size_t channel = 0; channel < this->Channels.size(); ++channel)
+    for (std::size_t channel = 0; channel < channels_.size(); ++channel)
     {
-      frame.insert(this->Channels[channel].Name,
-        Imf::Slice::Make(Imf::FLOAT, this->Rows.data() + channel * pixels,
-          IMATH_NAMESPACE::V2i(this->Window.min.x, firstRow), this->Width, lastRow - firstRow + 1));
+      frame.insert(channels_[channel].name,
+        Imf::Slice::Make(Imf::FLOAT, rows_.data() + channel * pixels,
+          IMATH_NAMESPACE::V2i(window_.min.x, firstRow), width_, lastRow - firstRow + 1));
     }
-    this->Part.setFrameBuffer(frame);
-    this->Part.readPixels(firstRow, lastRow);
+    part_.setFrameBuffer(frame);
+    part_.readPixels(firstRow, lastRow);
   }
 
-  Imf::InputPart& Part;
-  const LuminanceChannels& Channels;
-  IMATH_NAMESPACE::Box2i Window;
-  int Width;
-  std::vector<float> Rows;
+  Imf::InputPart& part_;
+  const LuminanceChannels& channels_;
+  IMATH_NAMESPACE::Box2i window_;
+  int width_;
+  std::vector<float> rows_;
 };
 
-LatLongImage ReadLuminance(Imf::InputPart& part, const LuminanceChannels& channels)
+LatLongImage readLuminance(Imf::InputPart& part, const LuminanceChannels& channels)
 {
   const auto& window = part.header().dataWindow();
   LatLongImage image;
-  image.Width = window.max.x - window.min.x + 1;
-  image.Height = window.max.y - window.min.y + 1;
+  image.width = window.max.x - window.min.x + 1;
+  image.height = window.max.y - window.min.y + 1;
   LuminanceReader reader(part, channels);
   for (int row = window.min.y; row <= window.max.y; row += RowsAtATime)
   {
-    reader.Append(row, image.Luminance);
+    reader.append(row, image.luminance);
   }
   return image;
 }
 
-void RequireLuminance(const std::string& fileName, const LatLongImage& image)
+void requireLuminance(const std::string& fileName, const LatLongImage& image)
 {
   const auto isBad = [](float value) { return !std::isfinite(value) || value < 0.0f; };
-  const auto bad = std::count_if(image.Luminance.begin(), image.Luminance.end(), isBad);
+  const auto bad = std::count_if(image.luminance.begin(), image.luminance.end(), isBad);
   if (bad > 0)
   {
-    RefuseExr(fileName,
-      std::to_string(bad) + " of " + std::to_string(image.Luminance.size()) +
+    refuseExr(fileName,
+      std::to_string(bad) + " of " + std::to_string(image.luminance.size()) +
         " pixels are negative, infinite or not a number; clamp them to finite values from 0.");
   }
 }
-
 }
 
-LatLongImage ReadLatLongImage(const std::string& fileName)
+LatLongImage readLatLongImage(const std::string& fileName)
 {
-  CheckExrFile(fileName, Limits);
+  checkExrFile(fileName, Limits);
   LatLongImage image;
-  WithExrReadErrors(fileName,
+  withExrReadErrors(fileName,
     [&]()
     {
       Imf::MultiPartInputFile file(fileName.c_str());
-      const int number = ChoosePart(fileName, file);
+      const int number = choosePart(fileName, file);
       Imf::InputPart part(file, number);
-      const LuminanceChannels channels = ChooseChannels(part.header());
-      RequireWholeSphere(fileName, part.header(), channels);
-      image = ReadLuminance(part, channels);
-      RequireLuminance(fileName, image);
+      const LuminanceChannels channels = chooseChannels(part.header());
+      requireWholeSphere(fileName, part.header(), channels);
+      image = readLuminance(part, channels);
+      requireLuminance(fileName, image);
     });
   return image;
 }
-
 }

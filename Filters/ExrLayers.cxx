@@ -17,39 +17,37 @@ namespace po
 {
 namespace
 {
-
-constexpr Imf::PixelType TypeOf(const std::vector<half>&)
+constexpr Imf::PixelType typeOf(const std::vector<half>&)
 {
   return Imf::HALF;
 }
-constexpr Imf::PixelType TypeOf(const std::vector<float>&)
+constexpr Imf::PixelType typeOf(const std::vector<float>&)
 {
   return Imf::FLOAT;
 }
-constexpr Imf::PixelType TypeOf(const std::vector<std::uint32_t>&)
+constexpr Imf::PixelType typeOf(const std::vector<std::uint32_t>&)
 {
   return Imf::UINT;
 }
 
-void RequireDistinctNames(const std::string& fileName, const std::vector<ExrChannel>& channels)
+void requireDistinctNames(const std::string& fileName, const std::vector<ExrChannel>& channels)
 {
   std::set<std::string> names;
   for (const ExrChannel& channel : channels)
   {
-    if (!names.insert(channel.Name).second)
+    if (!names.insert(channel.name).second)
     {
       throw ExrError("Cannot write \"" + fileName + "\": two arrays would become the channel \"" +
-        channel.Name + "\"; rename one.");
+        channel.name + "\"; rename one.");
     }
   }
 }
-
 }
 
-void WriteExrLayers(
+void writeExrLayers(
   const std::string& fileName, int width, int height, const std::vector<ExrChannel>& channels)
 {
-  RequireDistinctNames(fileName, channels);
+  requireDistinctNames(fileName, channels);
   Imf::Header header(width, height);
   // Of the lossless kinds the one that every viewer reads and that is small for depth and normals.
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -61,14 +59,14 @@ void WriteExrLayers(
     std::visit(
       [&](const auto& pixels)
       {
-        const Imf::PixelType type = TypeOf(pixels);
-        header.channels().insert(channel.Name, Imf::Channel(type));
-        frame.insert(channel.Name,
+        const Imf::PixelType type = typeOf(pixels);
+        header.channels().insert(channel.name, Imf::Channel(type));
+        frame.insert(channel.name,
           Imf::Slice::Make(type, pixels.data(), IMATH_NAMESPACE::V2i(0), width, height));
       },
-      channel.Pixels);
+      channel.pixels);
   }
-  WriteExrFile(fileName,
+  writeExrFile(fileName,
     [&](Imf::OStream& stream)
     {
       Imf::OutputFile file(stream, header);
@@ -76,5 +74,4 @@ void WriteExrLayers(
       file.writePixels(height);
     });
 }
-
 }

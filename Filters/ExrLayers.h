@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ExrLayers_h
-#define ExrLayers_h
+#ifndef po_ExrLayers_h
+#define po_ExrLayers_h
 
 #include <half.h>
 
@@ -12,19 +12,17 @@
 // Internal to the module: includes Imath.
 namespace po
 {
-
 /// One channel of an image, row by row from the top; its type in memory is its type in the file.
 struct ExrChannel
 {
-  std::string Name;
-  std::variant<std::vector<half>, std::vector<float>, std::vector<std::uint32_t>> Pixels;
+  std::string name;
+  std::variant<std::vector<half>, std::vector<float>, std::vector<std::uint32_t>> pixels;
 };
 
 /// Writes a scan-line image of width * height pixels a channel beside and renames it. Throws a
 /// std::runtime_error that names the file.
-void WriteExrLayers(
+void writeExrLayers(
   const std::string& fileName, int width, int height, const std::vector<ExrChannel>& channels);
-
 }
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef OcclusionEncoding_h
-#define OcclusionEncoding_h
+#ifndef po_OcclusionEncoding_h
+#define po_OcclusionEncoding_h
 
 #include <algorithm>
 #include <cmath>
@@ -8,17 +8,16 @@
 
 namespace po
 {
-
 /// UInt8Gamma2: byte = round(255 sqrt(value / maximum)), so value = maximum (byte / 255)^2.
 /// The steps of a decoded float are far coarser than its precision: encoding it with the same
 /// maximum gives the same byte, as long as maximum >= SmallestGamma2Maximum.
-inline float DecodeGamma2(std::uint8_t byte, double maximum)
+inline float decodeGamma2(std::uint8_t byte, double maximum)
 {
   const double root = byte / 255.0;
   return static_cast<float>(maximum * root * root);
 }
 
-inline std::uint8_t EncodeGamma2(float value, double maximum)
+inline std::uint8_t encodeGamma2(float value, double maximum)
 {
   const double share = maximum > 0.0 ? std::max(0.0, value / maximum) : 0.0;
   return static_cast<std::uint8_t>(std::lround(255.0 * std::min(1.0, std::sqrt(share))));
@@ -26,7 +25,6 @@ inline std::uint8_t EncodeGamma2(float value, double maximum)
 
 /// Below, maximum / 255^2 would leave the range of normal floats (1.2e-38).
 inline constexpr double SmallestGamma2Maximum = 1e-32;
-
 }
 
 #endif

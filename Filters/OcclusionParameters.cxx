@@ -14,9 +14,8 @@ namespace po
 {
 namespace
 {
-
 template <typename Number>
-Number Parse(const std::string& key, const std::string& text)
+Number parse(const std::string& key, const std::string& text)
 {
   Number number = 0;
   const char* end = text.data() + text.size();
@@ -29,68 +28,67 @@ Number Parse(const std::string& key, const std::string& text)
   return number;
 }
 
-auto Find(const std::vector<OcclusionParameters::Entry>& list, const std::string& key)
+auto find(const std::vector<OcclusionParameters::Entry>& list, const std::string& key)
 {
   return std::find_if(
     list.begin(), list.end(), [&](const auto& entry) { return entry.first == key; });
 }
-
 }
 
-void OcclusionParameters::Set(const std::string& key, const std::string& value)
+void OcclusionParameters::set(const std::string& key, const std::string& value)
 {
   if (key.empty() || key.find('=') != std::string::npos)
   {
     throw std::invalid_argument("\"" + key + "\" cannot be the key of a parameter.");
   }
-  const auto found = Find(this->List, key);
-  if (found == this->List.end())
+  const auto found = find(list_, key);
+  if (found == list_.end())
   {
-    this->List.emplace_back(key, value);
+    list_.emplace_back(key, value);
   }
   else
   {
-    this->List[found - this->List.begin()].second = value;
+    list_[found - list_.begin()].second = value;
   }
 }
 
-void OcclusionParameters::Set(const std::string& key, const char* value)
+void OcclusionParameters::set(const std::string& key, const char* value)
 {
-  this->Set(key, std::string(value));
+  set(key, std::string(value));
 }
 
-void OcclusionParameters::Set(const std::string& key, double value)
+void OcclusionParameters::set(const std::string& key, double value)
 {
   std::array<char, 32> text;
   const auto result =
     std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 17);
-  this->Set(key, std::string(text.data(), result.ptr));
+  set(key, std::string(text.data(), result.ptr));
 }
 
-void OcclusionParameters::Set(const std::string& key, long long value)
+void OcclusionParameters::set(const std::string& key, long long value)
 {
-  this->Set(key, std::to_string(value));
+  set(key, std::to_string(value));
 }
 
-void OcclusionParameters::Set(const std::string& key, int value)
+void OcclusionParameters::set(const std::string& key, int value)
 {
-  this->Set(key, std::to_string(value));
+  set(key, std::to_string(value));
 }
 
-void OcclusionParameters::Set(const std::string& key, bool value)
+void OcclusionParameters::set(const std::string& key, bool value)
 {
-  this->Set(key, value ? "1" : "0");
+  set(key, value ? "1" : "0");
 }
 
-bool OcclusionParameters::Has(const std::string& key) const
+bool OcclusionParameters::has(const std::string& key) const
 {
-  return Find(this->List, key) != this->List.end();
+  return find(list_, key) != list_.end();
 }
 
-const std::string& OcclusionParameters::Get(const std::string& key) const
+const std::string& OcclusionParameters::get(const std::string& key) const
 {
-  const auto found = Find(this->List, key);
-  if (found == this->List.end())
+  const auto found = find(list_, key);
+  if (found == list_.end())
   {
     throw std::runtime_error("The texture table does not say its \"" + key +
       "\": the field data \"" + std::string(ParametersArray) +
@@ -99,27 +97,27 @@ const std::string& OcclusionParameters::Get(const std::string& key) const
   return found->second;
 }
 
-double OcclusionParameters::GetDouble(const std::string& key) const
+double OcclusionParameters::getDouble(const std::string& key) const
 {
-  return Parse<double>(key, this->Get(key));
+  return parse<double>(key, get(key));
 }
 
-long long OcclusionParameters::GetInteger(const std::string& key) const
+long long OcclusionParameters::getInteger(const std::string& key) const
 {
-  return Parse<long long>(key, this->Get(key));
+  return parse<long long>(key, get(key));
 }
 
-std::vector<std::string> OcclusionParameters::ToStrings() const
+std::vector<std::string> OcclusionParameters::toStrings() const
 {
   std::vector<std::string> strings;
-  for (const Entry& entry : this->List)
+  for (const Entry& entry : list_)
   {
     strings.push_back(entry.first + '=' + entry.second);
   }
   return strings;
 }
 
-OcclusionParameters OcclusionParameters::FromStrings(const std::vector<std::string>& strings)
+OcclusionParameters OcclusionParameters::fromStrings(const std::vector<std::string>& strings)
 {
   OcclusionParameters parameters;
   for (const std::string& text : strings)
@@ -130,23 +128,23 @@ OcclusionParameters OcclusionParameters::FromStrings(const std::vector<std::stri
       throw std::runtime_error(
         "Parameter \"" + text + "\" of the texture table is not of the form key=value.");
     }
-    parameters.Set(text.substr(0, equals), text.substr(equals + 1));
+    parameters.set(text.substr(0, equals), text.substr(equals + 1));
   }
   return parameters;
 }
 
-void OcclusionParameters::ToFieldData(vtkFieldData* fieldData) const
+void OcclusionParameters::toFieldData(vtkFieldData* fieldData) const
 {
   vtkNew<vtkStringArray> array;
   array->SetName(ParametersArray);
-  for (const std::string& text : this->ToStrings())
+  for (const std::string& text : toStrings())
   {
     array->InsertNextValue(text);
   }
   fieldData->AddArray(array);
 }
 
-OcclusionParameters OcclusionParameters::FromFieldData(vtkFieldData* fieldData)
+OcclusionParameters OcclusionParameters::fromFieldData(vtkFieldData* fieldData)
 {
   auto* array = vtkStringArray::SafeDownCast(fieldData->GetAbstractArray(ParametersArray));
   if (!array)
@@ -159,7 +157,6 @@ OcclusionParameters OcclusionParameters::FromFieldData(vtkFieldData* fieldData)
   {
     strings.push_back(array->GetValue(i));
   }
-  return FromStrings(strings);
+  return fromStrings(strings);
 }
-
 }

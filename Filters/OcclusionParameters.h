@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef OcclusionParameters_h
-#define OcclusionParameters_h
+#ifndef po_OcclusionParameters_h
+#define po_OcclusionParameters_h
 
 #include "ParticleOcclusionFiltersModule.h"
 
@@ -12,7 +12,6 @@ class vtkFieldData;
 
 namespace po
 {
-
 /// Names of the arrays that a baked data set carries.
 inline constexpr const char* OcclusionArray = "AmbientOcclusion";
 inline constexpr const char* TextureIndexArray = "AmbientOcclusionTexture";
@@ -23,15 +22,13 @@ inline constexpr const char* ParametersArray = "AmbientOcclusionParameters";
 inline constexpr const char* UInt8Gamma2 = "UInt8Gamma2";
 inline constexpr const char* Float32Linear = "Float32Linear";
 
-/**
- * What is needed to decode and to reproduce a texture table: keys and values in a fixed order.
- *
- * Stored as the field data vtkStringArray "AmbientOcclusionParameters", one "key=value" a tuple, so
- * that people can read it and every VTK file format keeps it. Keys, in this order: version, method,
- * resolution, samplesPerTexel, seed, encoding, gamma, maximum, and whatever else the bake depended
- * on. Numbers are written independently of the locale; doubles with 17 significant digits, which
- * makes them round-trip exactly.
- */
+/// What is needed to decode and to reproduce a texture table: keys and values in a fixed order.
+///
+/// Stored as the field data vtkStringArray "AmbientOcclusionParameters", one "key=value" a tuple,
+/// so that people can read it and every VTK file format keeps it. Keys, in this order: version,
+/// method, resolution, samplesPerTexel, seed, encoding, gamma, maximum, and whatever else the bake
+/// depended on. Numbers are written independently of the locale; doubles with 17 significant
+/// digits, which makes them round-trip exactly.
 class PARTICLEOCCLUSIONFILTERS_EXPORT OcclusionParameters
 {
 public:
@@ -39,38 +36,37 @@ public:
 
   /// Replaces the value of the key or appends the key. Throws std::invalid_argument for a key that
   /// is empty or contains '='.
-  void Set(const std::string& key, const std::string& value);
-  void Set(const std::string& key, const char* value);
-  void Set(const std::string& key, double value);
-  void Set(const std::string& key, long long value);
-  void Set(const std::string& key, int value);
-  void Set(const std::string& key, bool value); ///< "1" or "0"
+  void set(const std::string& key, const std::string& value);
+  void set(const std::string& key, const char* value);
+  void set(const std::string& key, double value);
+  void set(const std::string& key, long long value);
+  void set(const std::string& key, int value);
+  void set(const std::string& key, bool value); ///< "1" or "0"
 
-  [[nodiscard]] bool Has(const std::string& key) const;
+  [[nodiscard]] bool has(const std::string& key) const;
 
   /// The value; throws a std::runtime_error that names the key when it is missing, not wholly a
   /// number, or out of the type's range.
-  [[nodiscard]] const std::string& Get(const std::string& key) const;
-  [[nodiscard]] double GetDouble(const std::string& key) const;
-  [[nodiscard]] long long GetInteger(const std::string& key) const;
+  [[nodiscard]] const std::string& get(const std::string& key) const;
+  [[nodiscard]] double getDouble(const std::string& key) const;
+  [[nodiscard]] long long getInteger(const std::string& key) const;
 
-  [[nodiscard]] const std::vector<Entry>& Entries() const { return this->List; }
+  [[nodiscard]] const std::vector<Entry>& entries() const { return list_; }
 
-  /// "key=value" strings and back; FromStrings throws a std::runtime_error that quotes a string
+  /// "key=value" strings and back; fromStrings throws a std::runtime_error that quotes a string
   /// without '=' or without a key.
-  [[nodiscard]] std::vector<std::string> ToStrings() const;
-  [[nodiscard]] static OcclusionParameters FromStrings(const std::vector<std::string>& strings);
+  [[nodiscard]] std::vector<std::string> toStrings() const;
+  [[nodiscard]] static OcclusionParameters fromStrings(const std::vector<std::string>& strings);
 
   /// Adds or replaces the array "AmbientOcclusionParameters".
-  void ToFieldData(vtkFieldData* fieldData) const;
+  void toFieldData(vtkFieldData* fieldData) const;
 
   /// Throws a std::runtime_error that names the array when it is missing or not of strings.
-  [[nodiscard]] static OcclusionParameters FromFieldData(vtkFieldData* fieldData);
+  [[nodiscard]] static OcclusionParameters fromFieldData(vtkFieldData* fieldData);
 
 private:
-  std::vector<Entry> List;
+  std::vector<Entry> list_;
 };
-
 }
 
 #endif

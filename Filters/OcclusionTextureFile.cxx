@@ -31,17 +31,16 @@ namespace po
 {
 namespace
 {
-
 constexpr int MaximumResolution = 1024;
 constexpr std::int64_t MaximumCount = std::int64_t{ 1 } << 31;
 
-// The widest atlas is ceil(sqrt(2^31)) tiles; its pixels are checked against the file's size.
+/// The widest atlas is ceil(sqrt(2^31)) tiles; its pixels are checked against the file's size.
 constexpr ExrLimits Limits = { 1 << 26, 1 << 26, MaximumResolution, std::int64_t{ 1 } << 40 };
 
-// ZIP makes the smallest files of the lossless kinds. Measured with 20,000 textures of 16 x 16 and
-// 49 samples a texel, in percent of the bare floats and seconds to write and to read: NONE 103,
-// .04, .03; RLE 102, .08, .04; ZIPS and ZIP 89, .68, .18; PIZ 103, 18, .03. At 64 x 64 ZIP comes to
-// 55 %, at 8 x 8 nothing pays. The noise of the samples is what does not compress.
+/// ZIP makes the smallest files of the lossless kinds. Measured with 20,000 textures of 16 x 16 and
+/// 49 samples a texel, in percent of the bare floats and seconds to write and to read: NONE 103,
+/// .04, .03; RLE 102, .08, .04; ZIPS and ZIP 89, .68, .18; PIZ 103, 18, .03. At 64 x 64 ZIP comes
+/// to 55 %, at 8 x 8 nothing pays. The noise of the samples is what does not compress.
 constexpr Imf::Compression TextureCompression = Imf::ZIP_COMPRESSION;
 constexpr Imf::Compression ParticleCompression = Imf::ZIP_COMPRESSION;
 
@@ -53,42 +52,42 @@ constexpr const char* MeanChannel = "AO";
 constexpr const char* TextureCountAttribute = "textureCount";
 constexpr const char* ParticleCountAttribute = "particleCount";
 
-// A nearly square arrangement of `count` things in rows. Never empty, as no EXR image may be.
+/// A nearly square arrangement of `count` things in rows. Never empty, as no EXR image may be.
 struct Grid
 {
   explicit Grid(std::int64_t count)
-    : Columns(std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))))))
-    , Rows(std::max<int>(1, static_cast<int>((count + Columns - 1) / Columns)))
+    : columns(std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))))))
+    , rows(std::max<int>(1, static_cast<int>((count + columns - 1) / columns)))
   {
   }
-  int Columns;
-  int Rows;
+  int columns;
+  int rows;
 };
 
-Imf::Header TexturesHeader(const OcclusionTextureSource& source)
+Imf::Header texturesHeader(const OcclusionTextureSource& source)
 {
-  const Grid grid(source.TextureCount);
-  const int side = source.Resolution;
-  Imf::Header header(grid.Columns * side, grid.Rows * side);
+  const Grid grid(source.textureCount);
+  const int side = source.resolution;
+  Imf::Header header(grid.columns * side, grid.rows * side);
   header.setName(TexturesPart);
   header.setType(Imf::TILEDIMAGE);
   header.compression() = TextureCompression;
   header.channels().insert(TexelChannel, Imf::Channel(Imf::FLOAT));
   header.setTileDescription(Imf::TileDescription(side, side, Imf::ONE_LEVEL));
-  header.insert(TextureCountAttribute, Imf::IntAttribute(static_cast<int>(source.TextureCount)));
-  header.insert(ParticleCountAttribute, Imf::IntAttribute(static_cast<int>(source.ParticleCount)));
-  header.insert(ParametersArray, Imf::StringVectorAttribute(source.Parameters.ToStrings()));
+  header.insert(TextureCountAttribute, Imf::IntAttribute(static_cast<int>(source.textureCount)));
+  header.insert(ParticleCountAttribute, Imf::IntAttribute(static_cast<int>(source.particleCount)));
+  header.insert(ParametersArray, Imf::StringVectorAttribute(source.parameters.toStrings()));
   Imf::addComments(header,
     "Ambient occlusion baked onto particles: one tile is the texture of a particle, linear "
     "visibility by polar angle (down) and azimuth (right).");
   return header;
 }
 
-// All parts of a file must have the same display window: that of the atlas.
-Imf::Header ParticlesHeader(const OcclusionTextureSource& source, const Imf::Header& textures)
+/// All parts of a file must have the same display window: that of the atlas.
+Imf::Header particlesHeader(const OcclusionTextureSource& source, const Imf::Header& textures)
 {
-  const Grid grid(source.ParticleCount);
-  const IMATH_NAMESPACE::Box2i window(V2i(0), V2i(grid.Columns - 1, grid.Rows - 1));
+  const Grid grid(source.particleCount);
+  const IMATH_NAMESPACE::Box2i window(V2i(0), V2i(grid.columns - 1, grid.rows - 1));
   Imf::Header header(textures.displayWindow(), window);
   header.setName(ParticlesPart);
   header.setType(Imf::SCANLINEIMAGE);
@@ -98,8 +97,8 @@ Imf::Header ParticlesHeader(const OcclusionTextureSource& source, const Imf::Hea
   return header;
 }
 
-// Every tile goes through the same buffer: coordinates are relative to the tile.
-Imf::FrameBuffer TileBuffer(float* texels, int side)
+/// Every tile goes through the same buffer: coordinates are relative to the tile.
+Imf::FrameBuffer tileBuffer(float* texels, int side)
 {
   Imf::FrameBuffer frame;
   frame.insert(TexelChannel,
@@ -108,8 +107,8 @@ Imf::FrameBuffer TileBuffer(float* texels, int side)
   return frame;
 }
 
-// OpenEXR wants pointers to mutable memory for writing too, but does not change it.
-Imf::FrameBuffer ParticleBuffer(
+/// OpenEXR wants pointers to mutable memory for writing too, but does not change it.
+Imf::FrameBuffer particleBuffer(
   const std::int32_t* rows, const float* means, int width, int firstLine, int lines)
 {
   const V2i origin(0, firstLine);
@@ -119,265 +118,263 @@ Imf::FrameBuffer ParticleBuffer(
   return frame;
 }
 
-void WriteTextures(Imf::MultiPartOutputFile& file, const OcclusionTextureSource& source)
+void writeTextures(Imf::MultiPartOutputFile& file, const OcclusionTextureSource& source)
 {
-  const Grid grid(source.TextureCount);
-  std::vector<float> texels(std::size_t(source.Resolution) * source.Resolution, 0.0f);
+  const Grid grid(source.textureCount);
+  std::vector<float> texels(std::size_t(source.resolution) * source.resolution, 0.0f);
   Imf::TiledOutputPart part(file, 0);
-  part.setFrameBuffer(TileBuffer(texels.data(), source.Resolution));
-  for (std::int64_t row = 0; row < std::int64_t{ grid.Columns } * grid.Rows; ++row)
+  part.setFrameBuffer(tileBuffer(texels.data(), source.resolution));
+  for (std::int64_t row = 0; row < std::int64_t{ grid.columns } * grid.rows; ++row)
   {
-    if (row < source.TextureCount)
+    if (row < source.textureCount)
     {
-      source.Texture(row, texels.data());
+      source.texture(row, texels.data());
     }
     else
     {
       std::fill(texels.begin(), texels.end(), 0.0f);
     }
-    part.writeTile(static_cast<int>(row % grid.Columns), static_cast<int>(row / grid.Columns));
+    part.writeTile(static_cast<int>(row % grid.columns), static_cast<int>(row / grid.columns));
   }
 }
 
-// Whole lines are written from the caller's memory, the last one from a padded copy.
-void WriteParticles(Imf::MultiPartOutputFile& file, const OcclusionTextureSource& source)
+/// Whole lines are written from the caller's memory, the last one from a padded copy.
+void writeParticles(Imf::MultiPartOutputFile& file, const OcclusionTextureSource& source)
 {
-  const Grid grid(source.ParticleCount);
-  const int wholeLines = static_cast<int>(source.ParticleCount / grid.Columns);
+  const Grid grid(source.particleCount);
+  const int wholeLines = static_cast<int>(source.particleCount / grid.columns);
   Imf::OutputPart part(file, 1);
   if (wholeLines > 0)
   {
-    part.setFrameBuffer(ParticleBuffer(source.Rows, source.Means, grid.Columns, 0, wholeLines));
+    part.setFrameBuffer(particleBuffer(source.rows, source.means, grid.columns, 0, wholeLines));
     part.writePixels(wholeLines);
   }
-  if (wholeLines < grid.Rows)
+  if (wholeLines < grid.rows)
   {
-    std::vector<std::int32_t> rows(grid.Columns, -1);
-    std::vector<float> means(grid.Columns, 0.0f);
-    const std::int64_t done = std::int64_t{ wholeLines } * grid.Columns;
-    std::copy(source.Rows + done, source.Rows + source.ParticleCount, rows.begin());
-    std::copy(source.Means + done, source.Means + source.ParticleCount, means.begin());
-    part.setFrameBuffer(ParticleBuffer(rows.data(), means.data(), grid.Columns, wholeLines, 1));
+    std::vector<std::int32_t> rows(grid.columns, -1);
+    std::vector<float> means(grid.columns, 0.0f);
+    const std::int64_t done = std::int64_t{ wholeLines } * grid.columns;
+    std::copy(source.rows + done, source.rows + source.particleCount, rows.begin());
+    std::copy(source.means + done, source.means + source.particleCount, means.begin());
+    part.setFrameBuffer(particleBuffer(rows.data(), means.data(), grid.columns, wholeLines, 1));
     part.writePixels(1);
   }
 }
 
-void RequireWritable(const std::string& fileName, const OcclusionTextureSource& source)
+void requireWritable(const std::string& fileName, const OcclusionTextureSource& source)
 {
   const std::string prefix = "Cannot write \"" + fileName + "\": ";
-  if (source.Resolution < 1 || source.Resolution > MaximumResolution)
+  if (source.resolution < 1 || source.resolution > MaximumResolution)
   {
-    throw ExrError(prefix + "textures of " + std::to_string(source.Resolution) +
+    throw ExrError(prefix + "textures of " + std::to_string(source.resolution) +
       " texels a side; 1 to " + std::to_string(MaximumResolution) + " are possible.");
   }
-  if (source.TextureCount >= MaximumCount || source.ParticleCount >= MaximumCount)
+  if (source.textureCount >= MaximumCount || source.particleCount >= MaximumCount)
   {
     throw ExrError(prefix + "more than 2^31 - 1 textures or particles; split the data.");
   }
 }
-
 }
 
-void WriteOcclusionTextures(const std::string& fileName, const OcclusionTextureSource& source)
+void writeOcclusionTextures(const std::string& fileName, const OcclusionTextureSource& source)
 {
-  RequireWritable(fileName, source);
-  WriteExrFile(fileName,
+  requireWritable(fileName, source);
+  writeExrFile(fileName,
     [&](Imf::OStream& stream)
     {
-      const Imf::Header textures = TexturesHeader(source);
-      const std::array<Imf::Header, 2> headers = { textures, ParticlesHeader(source, textures) };
+      const Imf::Header textures = texturesHeader(source);
+      const std::array<Imf::Header, 2> headers = { textures, particlesHeader(source, textures) };
       Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
-      WriteTextures(file, source);
-      WriteParticles(file, source);
+      writeTextures(file, source);
+      writeParticles(file, source);
     });
 }
 
 struct OcclusionTextureFile::Internals
 {
-  std::string FileName;
-  std::optional<Imf::MultiPartInputFile> File;
-  std::optional<Imf::TiledInputPart> Textures;
-  int Resolution = 0;
-  std::int64_t TextureCount = 0;
-  std::int64_t ParticleCount = 0;
-  OcclusionParameters Parameters;
+  std::string fileName;
+  std::optional<Imf::MultiPartInputFile> file;
+  std::optional<Imf::TiledInputPart> textures;
+  int resolution = 0;
+  std::int64_t textureCount = 0;
+  std::int64_t particleCount = 0;
+  OcclusionParameters parameters;
 
-  void Open();
-  void ReadHeader();
-  void RequireSizes() const;
-  void RequirePlausibleSize() const;
-  std::int64_t ReadCount(const char* attribute) const;
-  [[noreturn]] void RefuseForeign() const;
+  void open();
+  void readHeader();
+  void requireSizes() const;
+  void requirePlausibleSize() const;
+  std::int64_t readCount(const char* attribute) const;
+  [[noreturn]] void refuseForeign() const;
 };
 
-void OcclusionTextureFile::Internals::RefuseForeign() const
+void OcclusionTextureFile::Internals::refuseForeign() const
 {
-  RefuseExr(this->FileName,
+  refuseExr(fileName,
     "it is an OpenEXR image, but not one of occlusion textures; choose a file that the occlusion "
     "texture writer has written.");
 }
 
-std::int64_t OcclusionTextureFile::Internals::ReadCount(const char* attribute) const
+std::int64_t OcclusionTextureFile::Internals::readCount(const char* attribute) const
 {
-  const auto* count = this->File->header(0).findTypedAttribute<Imf::IntAttribute>(attribute);
+  const auto* count = file->header(0).findTypedAttribute<Imf::IntAttribute>(attribute);
   if (!count)
   {
-    this->RefuseForeign();
+    refuseForeign();
   }
   if (count->value() < 0)
   {
-    RefuseExr(this->FileName, std::string("its ") + attribute + " is negative; write it again.");
+    refuseExr(fileName, std::string("its ") + attribute + " is negative; write it again.");
   }
   return count->value();
 }
 
-void OcclusionTextureFile::Internals::ReadHeader()
+void OcclusionTextureFile::Internals::readHeader()
 {
-  const auto& header = this->File->header(0);
+  const auto& header = file->header(0);
   const auto* strings = header.findTypedAttribute<Imf::StringVectorAttribute>(ParametersArray);
-  if (!strings || this->File->parts() != 2 || !header.hasTileDescription() || !header.hasType() ||
+  if (!strings || file->parts() != 2 || !header.hasTileDescription() || !header.hasType() ||
     header.type() != Imf::TILEDIMAGE)
   {
-    this->RefuseForeign();
+    refuseForeign();
   }
-  this->TextureCount = this->ReadCount(TextureCountAttribute);
-  this->ParticleCount = this->ReadCount(ParticleCountAttribute);
-  this->Resolution = static_cast<int>(header.tileDescription().xSize);
-  this->Parameters = OcclusionParameters::FromStrings(strings->value());
+  textureCount = readCount(TextureCountAttribute);
+  particleCount = readCount(ParticleCountAttribute);
+  resolution = static_cast<int>(header.tileDescription().xSize);
+  parameters = OcclusionParameters::fromStrings(strings->value());
 }
 
-// Counts, tiles and windows must be what the writer makes of them: from here on they can be
-// trusted.
-void OcclusionTextureFile::Internals::RequireSizes() const
+/// Counts, tiles and windows must be what the writer makes of them: from here on they can be
+/// trusted.
+void OcclusionTextureFile::Internals::requireSizes() const
 {
-  const auto window = [this](int part) { return this->File->header(part).dataWindow(); };
+  const auto window = [this](int part) { return file->header(part).dataWindow(); };
   const auto is = [](const IMATH_NAMESPACE::Box2i& box, std::int64_t width, std::int64_t height)
   { return box.min == V2i(0) && box.max.x == width - 1 && box.max.y == height - 1; };
-  const Imf::TileDescription& tiles = this->File->header(0).tileDescription();
-  const Imf::Header& particles = this->File->header(1);
-  const std::int64_t side = this->Resolution;
-  const Grid textureGrid(this->TextureCount);
-  const Grid particleGrid(this->ParticleCount);
+  const Imf::TileDescription& tiles = file->header(0).tileDescription();
+  const Imf::Header& particles = file->header(1);
+  const std::int64_t side = resolution;
+  const Grid textureGrid(textureCount);
+  const Grid particleGrid(particleCount);
   const bool consistent = tiles.ySize == tiles.xSize && tiles.mode == Imf::ONE_LEVEL &&
-    is(window(0), textureGrid.Columns * side, textureGrid.Rows * side) &&
-    is(window(1), particleGrid.Columns, particleGrid.Rows) &&
-    this->File->header(0).channels().findChannel(TexelChannel) && particles.hasType() &&
+    is(window(0), textureGrid.columns * side, textureGrid.rows * side) &&
+    is(window(1), particleGrid.columns, particleGrid.rows) &&
+    file->header(0).channels().findChannel(TexelChannel) && particles.hasType() &&
     particles.type() == Imf::SCANLINEIMAGE && particles.channels().findChannel(RowChannel) &&
     particles.channels().findChannel(MeanChannel);
   if (!consistent)
   {
-    RefuseExr(this->FileName,
+    refuseExr(fileName,
       "its header contradicts itself (tiles, counts and sizes of the images); it is damaged, copy "
       "or write it again.");
   }
 }
 
-// Deflate cannot shrink by more than 1032 (zlib technical details): what claims to hold more than
-// that is damaged, and nothing of the size that it claims must be allocated.
-void OcclusionTextureFile::Internals::RequirePlausibleSize() const
+/// Deflate cannot shrink by more than 1032 (zlib technical details): what claims to hold more than
+/// that is damaged, and nothing of the size that it claims must be allocated.
+void OcclusionTextureFile::Internals::requirePlausibleSize() const
 {
-  constexpr double largestRatio = 1032.0;
-  const double fileBytes = static_cast<double>(std::filesystem::file_size(this->FileName));
-  const double texels = double(this->TextureCount) * this->Resolution * this->Resolution;
-  const double bytes = 4.0 * texels + 8.0 * static_cast<double>(this->ParticleCount);
-  if (bytes > largestRatio * fileBytes)
+  constexpr double LargestRatio = 1032.0;
+  const double fileBytes = static_cast<double>(std::filesystem::file_size(fileName));
+  const double texels = double(textureCount) * resolution * resolution;
+  const double bytes = 4.0 * texels + 8.0 * static_cast<double>(particleCount);
+  if (bytes > LargestRatio * fileBytes)
   {
-    RefuseExr(this->FileName,
+    refuseExr(fileName,
       "it is too short for the textures that it announces; it is damaged or incomplete, copy or "
       "write it again.");
   }
 }
 
-void OcclusionTextureFile::Internals::Open()
+void OcclusionTextureFile::Internals::open()
 {
-  this->File.emplace(this->FileName.c_str());
-  this->ReadHeader();
-  this->RequireSizes();
-  this->RequirePlausibleSize();
-  this->Textures.emplace(*this->File, 0);
+  file.emplace(fileName.c_str());
+  readHeader();
+  requireSizes();
+  requirePlausibleSize();
+  textures.emplace(*file, 0);
 }
 
 OcclusionTextureFile::OcclusionTextureFile(const std::string& fileName)
-  : Internal(std::make_unique<Internals>())
+  : internals_(std::make_unique<Internals>())
 {
-  this->Internal->FileName = fileName;
-  CheckExrFile(fileName, Limits);
-  WithExrReadErrors(fileName, [this]() { this->Internal->Open(); });
+  internals_->fileName = fileName;
+  checkExrFile(fileName, Limits);
+  withExrReadErrors(fileName, [this]() { internals_->open(); });
 }
 
 OcclusionTextureFile::~OcclusionTextureFile() = default;
 
-int OcclusionTextureFile::Resolution() const
+int OcclusionTextureFile::resolution() const
 {
-  return this->Internal->Resolution;
+  return internals_->resolution;
 }
 
-std::int64_t OcclusionTextureFile::TextureCount() const
+std::int64_t OcclusionTextureFile::textureCount() const
 {
-  return this->Internal->TextureCount;
+  return internals_->textureCount;
 }
 
-std::int64_t OcclusionTextureFile::ParticleCount() const
+std::int64_t OcclusionTextureFile::particleCount() const
 {
-  return this->Internal->ParticleCount;
+  return internals_->particleCount;
 }
 
-const OcclusionParameters& OcclusionTextureFile::Parameters() const
+const OcclusionParameters& OcclusionTextureFile::parameters() const
 {
-  return this->Internal->Parameters;
+  return internals_->parameters;
 }
 
-void OcclusionTextureFile::ReadTexture(std::int64_t row, float* texels)
+void OcclusionTextureFile::readTexture(std::int64_t row, float* texels)
 {
-  Internals& file = *this->Internal;
-  if (row < 0 || row >= file.TextureCount)
+  Internals& file = *internals_;
+  if (row < 0 || row >= file.textureCount)
   {
-    RefuseExr(file.FileName,
+    refuseExr(file.fileName,
       "it has no texture " + std::to_string(row) + "; choose 0 to " +
-        std::to_string(file.TextureCount - 1) + ".");
+        std::to_string(file.textureCount - 1) + ".");
   }
-  WithExrReadErrors(file.FileName,
+  withExrReadErrors(file.fileName,
     [&]()
     {
-      const Grid grid(file.TextureCount);
-      file.Textures->setFrameBuffer(TileBuffer(texels, file.Resolution));
-      file.Textures->readTile(
-        static_cast<int>(row % grid.Columns), static_cast<int>(row / grid.Columns));
+      const Grid grid(file.textureCount);
+      file.textures->setFrameBuffer(tileBuffer(texels, file.resolution));
+      file.textures->readTile(
+        static_cast<int>(row % grid.columns), static_cast<int>(row / grid.columns));
     });
 }
 
-void OcclusionTextureFile::ReadParticles(std::int32_t* rows, float* means)
+void OcclusionTextureFile::readParticles(std::int32_t* rows, float* means)
 {
-  Internals& file = *this->Internal;
-  const Grid grid(file.ParticleCount);
-  const int wholeLines = static_cast<int>(file.ParticleCount / grid.Columns);
-  WithExrReadErrors(file.FileName,
+  Internals& file = *internals_;
+  const Grid grid(file.particleCount);
+  const int wholeLines = static_cast<int>(file.particleCount / grid.columns);
+  withExrReadErrors(file.fileName,
     [&]()
     {
-      Imf::InputPart part(*file.File, 1);
+      Imf::InputPart part(*file.file, 1);
       if (wholeLines > 0)
       {
-        part.setFrameBuffer(ParticleBuffer(rows, means, grid.Columns, 0, wholeLines));
+        part.setFrameBuffer(particleBuffer(rows, means, grid.columns, 0, wholeLines));
         part.readPixels(0, wholeLines - 1);
       }
-      if (wholeLines < grid.Rows)
+      if (wholeLines < grid.rows)
       {
-        std::vector<std::int32_t> lastRows(grid.Columns);
-        std::vector<float> lastMeans(grid.Columns);
+        std::vector<std::int32_t> lastRows(grid.columns);
+        std::vector<float> lastMeans(grid.columns);
         part.setFrameBuffer(
-          ParticleBuffer(lastRows.data(), lastMeans.data(), grid.Columns, wholeLines, 1));
+          particleBuffer(lastRows.data(), lastMeans.data(), grid.columns, wholeLines, 1));
         part.readPixels(wholeLines);
-        const std::int64_t done = std::int64_t{ wholeLines } * grid.Columns;
-        std::copy_n(lastRows.begin(), file.ParticleCount - done, rows + done);
-        std::copy_n(lastMeans.begin(), file.ParticleCount - done, means + done);
+        const std::int64_t done = std::int64_t{ wholeLines } * grid.columns;
+        std::copy_n(lastRows.begin(), file.particleCount - done, rows + done);
+        std::copy_n(lastMeans.begin(), file.particleCount - done, means + done);
       }
     });
-  const bool valid = std::all_of(rows, rows + file.ParticleCount,
-    [&](std::int32_t row) { return row >= -1 && row < file.TextureCount; });
+  const bool valid = std::all_of(rows, rows + file.particleCount,
+    [&](std::int32_t row) { return row >= -1 && row < file.textureCount; });
   if (!valid)
   {
-    RefuseExr(file.FileName, "it refers to textures that it lacks; it is damaged, write it again.");
+    refuseExr(file.fileName, "it refers to textures that it lacks; it is damaged, write it again.");
   }
 }
-
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef OcclusionTextureFile_h
-#define OcclusionTextureFile_h
+#ifndef po_OcclusionTextureFile_h
+#define po_OcclusionTextureFile_h
 
 #include "ParticleOcclusionFiltersModule.h"
 
@@ -28,22 +28,21 @@
 // parameters (string vector "AmbientOcclusionParameters" of "key=value" in their order).
 namespace po
 {
-
 /// A texture table as the writer needs it. Pointers are borrowed.
 struct OcclusionTextureSource
 {
-  int Resolution = 0; ///< T, texels on a side of a texture, 1 to 1024
-  std::int64_t TextureCount = 0;
-  std::int64_t ParticleCount = 0;
-  OcclusionParameters Parameters;
+  int resolution = 0; ///< T, texels on a side of a texture, 1 to 1024
+  std::int64_t textureCount = 0;
+  std::int64_t particleCount = 0;
+  OcclusionParameters parameters;
   /// Stores the T * T linear values of a texture; called once a texture in ascending order.
-  std::function<void(std::int64_t row, float* texels)> Texture;
-  const std::int32_t* Rows = nullptr; ///< ParticleCount rows; -1 = no texture
-  const float* Means = nullptr;       ///< ParticleCount mean visibilities
+  std::function<void(std::int64_t row, float* texels)> texture;
+  const std::int32_t* rows = nullptr; ///< particleCount rows; -1 = no texture
+  const float* means = nullptr;       ///< particleCount mean visibilities
 };
 
 /// Writes the file beside and renames it. Throws a std::runtime_error that names the file.
-PARTICLEOCCLUSIONFILTERS_EXPORT void WriteOcclusionTextures(
+PARTICLEOCCLUSIONFILTERS_EXPORT void writeOcclusionTextures(
   const std::string& fileName, const OcclusionTextureSource& source);
 
 /// A texture file that is open for reading. All members throw a std::runtime_error that names the
@@ -57,22 +56,21 @@ public:
   OcclusionTextureFile(const OcclusionTextureFile&) = delete;
   OcclusionTextureFile& operator=(const OcclusionTextureFile&) = delete;
 
-  [[nodiscard]] int Resolution() const;
-  [[nodiscard]] std::int64_t TextureCount() const;
-  [[nodiscard]] std::int64_t ParticleCount() const;
-  [[nodiscard]] const OcclusionParameters& Parameters() const;
+  [[nodiscard]] int resolution() const;
+  [[nodiscard]] std::int64_t textureCount() const;
+  [[nodiscard]] std::int64_t particleCount() const;
+  [[nodiscard]] const OcclusionParameters& parameters() const;
 
   /// Reads the T * T linear values of one texture: exactly one tile of the file.
-  void ReadTexture(std::int64_t row, float* texels);
+  void readTexture(std::int64_t row, float* texels);
 
-  /// Reads the row (-1 = none, else checked against TextureCount) and the mean of every particle.
-  void ReadParticles(std::int32_t* rows, float* means);
+  /// Reads the row (-1 = none, else checked against textureCount) and the mean of every particle.
+  void readParticles(std::int32_t* rows, float* means);
 
 private:
   struct Internals;
-  std::unique_ptr<Internals> Internal;
+  std::unique_ptr<Internals> internals_;
 };
-
 }
 
 #endif

@@ -21,22 +21,21 @@ vtkStandardNewMacro(vtkDepthSilhouettes);
 
 namespace
 {
-
 const char* const SilhouetteName = "Silhouette";
 
-bool IsDepth(vtkDataArray* array)
+bool isDepth(vtkDataArray* array)
 {
   return array && array->GetNumberOfComponents() == 1 &&
     (vtkFloatArray::SafeDownCast(array) || vtkDoubleArray::SafeDownCast(array));
 }
 
 /// The active scalars if they can be depth, else "Z", else "depth".
-vtkDataArray* DefaultDepth(vtkPointData* points)
+vtkDataArray* defaultDepth(vtkPointData* points)
 {
   for (vtkDataArray* array :
     { points->GetScalars(), points->GetArray("Z"), points->GetArray("depth") })
   {
-    if (IsDepth(array))
+    if (isDepth(array))
     {
       return array;
     }
@@ -44,22 +43,22 @@ vtkDataArray* DefaultDepth(vtkPointData* points)
   return nullptr;
 }
 
-vtkIdType PixelsOfSlice(const int extent[6])
+vtkIdType pixelsOfSlice(const int extent[6])
 {
   return static_cast<vtkIdType>(extent[1] - extent[0] + 1) * (extent[3] - extent[2] + 1);
 }
 
 /// The slice `k` (from 0) of an array that fills `extent`.
 template <typename T>
-po::DepthImage<T> Slice(const T* depth, const int extent[6], int k)
+po::DepthImage<T> slice(const T* depth, const int extent[6], int k)
 {
-  return { depth + k * PixelsOfSlice(extent), extent[1] - extent[0] + 1,
+  return { depth + k * pixelsOfSlice(extent), extent[1] - extent[0] + 1,
     extent[3] - extent[2] + 1 };
 }
 
 /// Calls `work` with the array's values as const float* or const double*.
 template <typename Work>
-void WithValues(vtkDataArray* depth, Work work)
+void withValues(vtkDataArray* depth, Work work)
 {
   if (auto* floats = vtkFloatArray::SafeDownCast(depth))
   {
@@ -70,8 +69,7 @@ void WithValues(vtkDataArray* depth, Work work)
     work(static_cast<const double*>(doubles->GetPointer(0)));
   }
 }
-
-} // namespace
+}
 
 struct vtkDepthSilhouettes::Internals
 {
@@ -112,7 +110,7 @@ vtkDataArray* vtkDepthSilhouettes::FindDepth(
   const char* chosen = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
   if (!chosen || !*chosen) // ParaView sets an empty name where there is no choice
   {
-    vtkDataArray* array = DefaultDepth(input->GetPointData());
+    vtkDataArray* array = defaultDepth(input->GetPointData());
     if (!array)
     {
       vtkErrorMacro("There is no depth array: choose a one-component float or double point array, "
@@ -130,7 +128,7 @@ vtkDataArray* vtkDepthSilhouettes::FindDepth(
                                                      "point array of depth.");
     return nullptr;
   }
-  if (!IsDepth(array))
+  if (!isDepth(array))
   {
     vtkErrorMacro("Array " << chosen << " (" << array->GetNumberOfComponents()
                            << " components of type " << array->GetDataTypeAsString()
@@ -190,13 +188,13 @@ int vtkDepthSilhouettes::RequestData(
   const po::SilhouetteParameters parameters{ this->Threshold, this->BackgroundDepth };
   this->Internal->Depth = depth;
   this->Internal->Rules.clear();
-  WithValues(depth,
+  withValues(depth,
     [&](const auto* values)
     {
       for (int k = 0; k <= extent[5] - extent[4]; ++k)
       {
-        const auto farthest = po::FarthestDepth(Slice(values, extent, k));
-        this->Internal->Rules.push_back(po::ResolveEdgeRule(parameters, farthest));
+        const auto farthest = po::farthestDepth(slice(values, extent, k));
+        this->Internal->Rules.push_back(po::resolveEdgeRule(parameters, farthest));
       }
     });
 
@@ -213,13 +211,13 @@ void vtkDepthSilhouettes::ThreadedRequestData(vtkInformation*, vtkInformationVec
   auto* silhouette = vtkFloatArray::SafeDownCast(outData[0]->GetPointData()->GetScalars());
   const po::PixelBlock block{ piece[0] - extent[0], piece[1] - extent[0] + 1, piece[2] - extent[2],
     piece[3] - extent[2] + 1 };
-  WithValues(this->Internal->Depth,
+  withValues(this->Internal->Depth,
     [&](const auto* values)
     {
       for (int k = piece[4] - extent[4]; k <= piece[5] - extent[4]; ++k)
       {
-        po::MarkSilhouettes(Slice(values, extent, k), this->Internal->Rules[k], block,
-          silhouette->GetPointer(k * PixelsOfSlice(extent)));
+        po::markSilhouettes(slice(values, extent, k), this->Internal->Rules[k], block,
+          silhouette->GetPointer(k * pixelsOfSlice(extent)));
       }
     });
 }

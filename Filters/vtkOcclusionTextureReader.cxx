@@ -26,114 +26,113 @@ vtkStandardNewMacro(vtkOcclusionTextureReader);
 
 namespace
 {
-
 using Progress = std::function<void(double)>;
 
 template <typename Array>
-vtkSmartPointer<Array> NewTable(const po::OcclusionTextureFile& file)
+vtkSmartPointer<Array> newTable(const po::OcclusionTextureFile& file)
 {
   auto table = vtkSmartPointer<Array>::New();
   table->SetName(po::TextureTableArray);
-  table->SetNumberOfComponents(file.Resolution() * file.Resolution());
-  table->SetNumberOfTuples(file.TextureCount());
+  table->SetNumberOfComponents(file.resolution() * file.resolution());
+  table->SetNumberOfTuples(file.textureCount());
   return table;
 }
 
-// Reads texture by texture: no second copy of the table is held.
-void ReadEachTexture(po::OcclusionTextureFile& file, const Progress& progress,
+/// Reads texture by texture: no second copy of the table is held.
+void readEachTexture(po::OcclusionTextureFile& file, const Progress& progress,
   const std::function<void(vtkIdType row)>& read)
 {
-  for (vtkIdType row = 0; row < file.TextureCount(); ++row)
+  for (vtkIdType row = 0; row < file.textureCount(); ++row)
   {
     if (row % 1024 == 0)
     {
-      progress(static_cast<double>(row) / static_cast<double>(file.TextureCount()));
+      progress(static_cast<double>(row) / static_cast<double>(file.textureCount()));
     }
     read(row);
   }
 }
 
-vtkSmartPointer<vtkDataArray> ReadFloats(po::OcclusionTextureFile& file, const Progress& progress)
+vtkSmartPointer<vtkDataArray> readFloats(po::OcclusionTextureFile& file, const Progress& progress)
 {
-  auto table = NewTable<vtkFloatArray>(file);
+  auto table = newTable<vtkFloatArray>(file);
   const vtkIdType size = table->GetNumberOfComponents();
-  ReadEachTexture(
-    file, progress, [&](vtkIdType row) { file.ReadTexture(row, table->GetPointer(row * size)); });
+  readEachTexture(
+    file, progress, [&](vtkIdType row) { file.readTexture(row, table->GetPointer(row * size)); });
   return table;
 }
 
-vtkSmartPointer<vtkDataArray> ReadBytes(
+vtkSmartPointer<vtkDataArray> readBytes(
   po::OcclusionTextureFile& file, double maximum, const Progress& progress)
 {
-  auto table = NewTable<vtkUnsignedCharArray>(file);
+  auto table = newTable<vtkUnsignedCharArray>(file);
   const vtkIdType size = table->GetNumberOfComponents();
   std::vector<float> texels(size);
-  ReadEachTexture(file, progress,
+  readEachTexture(file, progress,
     [&](vtkIdType row)
     {
-      file.ReadTexture(row, texels.data());
+      file.readTexture(row, texels.data());
       std::transform(texels.begin(), texels.end(), table->GetPointer(row * size),
-        [maximum](float value) { return po::EncodeGamma2(value, maximum); });
+        [maximum](float value) { return po::encodeGamma2(value, maximum); });
     });
   return table;
 }
 
-vtkSmartPointer<vtkDataArray> ReadTable(po::OcclusionTextureFile& file, const Progress& progress)
+vtkSmartPointer<vtkDataArray> readTable(po::OcclusionTextureFile& file, const Progress& progress)
 {
-  const std::string& encoding = file.Parameters().Get("encoding");
+  const std::string& encoding = file.parameters().get("encoding");
   if (encoding == po::UInt8Gamma2)
   {
-    return ReadBytes(file, file.Parameters().GetDouble("maximum"), progress);
+    return readBytes(file, file.parameters().getDouble("maximum"), progress);
   }
   if (encoding == po::Float32Linear)
   {
-    return ReadFloats(file, progress);
+    return readFloats(file, progress);
   }
   throw std::runtime_error("the textures are encoded as \"" + encoding +
     "\", which this version does not know; use a newer version.");
 }
 
-void AddParticleArrays(po::OcclusionTextureFile& file, vtkPointData* pointData)
+void addParticleArrays(po::OcclusionTextureFile& file, vtkPointData* pointData)
 {
   vtkNew<vtkFloatArray> means;
   means->SetName(po::OcclusionArray);
-  means->SetNumberOfTuples(file.ParticleCount());
+  means->SetNumberOfTuples(file.particleCount());
   vtkNew<vtkIntArray> rows;
   rows->SetName(po::TextureIndexArray);
-  rows->SetNumberOfTuples(file.ParticleCount());
-  file.ReadParticles(rows->GetPointer(0), means->GetPointer(0));
+  rows->SetNumberOfTuples(file.particleCount());
+  file.readParticles(rows->GetPointer(0), means->GetPointer(0));
   pointData->AddArray(means);
   pointData->AddArray(rows);
 }
 
-void RequireSameParticles(
+void requireSameParticles(
   const std::string& fileName, const po::OcclusionTextureFile& file, vtkPolyData* input)
 {
-  if (input->GetNumberOfPoints() != file.ParticleCount())
+  if (input->GetNumberOfPoints() != file.particleCount())
   {
-    throw std::runtime_error("\"" + fileName + "\" is for " + std::to_string(file.ParticleCount()) +
+    throw std::runtime_error("\"" + fileName + "\" is for " + std::to_string(file.particleCount()) +
       " particles, but the input has " + std::to_string(input->GetNumberOfPoints()) +
       " points; choose the data set that was baked, before any filter that removes points.");
   }
 }
 
-// Everything is read into `result` first, so that a failure leaves nothing half-read in the output.
-void ReadOnto(
+/// Everything is read into `result` first, so that a failure leaves nothing half-read in the
+/// output.
+void readOnto(
   const std::string& fileName, vtkPolyData* input, vtkPolyData* output, const Progress& progress)
 {
   po::OcclusionTextureFile file(fileName);
   vtkNew<vtkPolyData> result;
   if (input)
   {
-    RequireSameParticles(fileName, file, input);
+    requireSameParticles(fileName, file, input);
     result->ShallowCopy(input);
-    AddParticleArrays(file, result->GetPointData());
+    addParticleArrays(file, result->GetPointData());
   }
-  result->GetFieldData()->AddArray(ReadTable(file, progress));
-  file.Parameters().ToFieldData(result->GetFieldData());
+  result->GetFieldData()->AddArray(readTable(file, progress));
+  file.parameters().toFieldData(result->GetFieldData());
   output->ShallowCopy(result);
 }
-
 }
 
 vtkOcclusionTextureReader::~vtkOcclusionTextureReader()
@@ -160,7 +159,7 @@ int vtkOcclusionTextureReader::RequestData(
   this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
-    ReadOnto(this->FileName, vtkPolyData::GetData(inputVector[0]),
+    readOnto(this->FileName, vtkPolyData::GetData(inputVector[0]),
       vtkPolyData::GetData(outputVector), [this](double done) { this->UpdateProgress(done); });
     return 1;
   }
@@ -183,9 +182,9 @@ vtkSmartPointer<vtkFloatArray> vtkOcclusionTextureReader::ReadTexture(vtkIdType 
   {
     po::OcclusionTextureFile file(this->FileName ? this->FileName : "");
     auto texture = vtkSmartPointer<vtkFloatArray>::New();
-    texture->SetNumberOfComponents(file.Resolution() * file.Resolution());
+    texture->SetNumberOfComponents(file.resolution() * file.resolution());
     texture->SetNumberOfTuples(1);
-    file.ReadTexture(row, texture->GetPointer(0));
+    file.readTexture(row, texture->GetPointer(0));
     return texture;
   }
   catch (const std::exception& error)

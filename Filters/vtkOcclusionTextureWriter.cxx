@@ -21,9 +21,8 @@ vtkStandardNewMacro(vtkOcclusionTextureWriter);
 
 namespace
 {
-
 template <typename Array>
-Array* RequireArray(vtkFieldData* data, const char* name, const char* where, const char* type)
+Array* requireArray(vtkFieldData* data, const char* name, const char* where, const char* type)
 {
   vtkAbstractArray* found = data->GetAbstractArray(name);
   if (!found)
@@ -40,7 +39,7 @@ Array* RequireArray(vtkFieldData* data, const char* name, const char* where, con
   return array;
 }
 
-void RequireRows(vtkIntArray* rows, vtkIdType textures)
+void requireRows(vtkIntArray* rows, vtkIdType textures)
 {
   for (vtkIdType i = 0; i < rows->GetNumberOfValues(); ++i)
   {
@@ -54,7 +53,7 @@ void RequireRows(vtkIntArray* rows, vtkIdType textures)
   }
 }
 
-void RequireOneValueAPoint(vtkDataArray* array, vtkIdType points)
+void requireOneValueAPoint(vtkDataArray* array, vtkIdType points)
 {
   if (array->GetNumberOfComponents() != 1 || array->GetNumberOfTuples() != points)
   {
@@ -64,9 +63,9 @@ void RequireOneValueAPoint(vtkDataArray* array, vtkIdType points)
   }
 }
 
-int RequireResolution(const po::OcclusionParameters& parameters, vtkDataArray* table)
+int requireResolution(const po::OcclusionParameters& parameters, vtkDataArray* table)
 {
-  const long long side = parameters.GetInteger("resolution");
+  const long long side = parameters.getInteger("resolution");
   const long long components = table->GetNumberOfComponents();
   if (side < 1 || side > components || side * side != components)
   {
@@ -79,9 +78,9 @@ int RequireResolution(const po::OcclusionParameters& parameters, vtkDataArray* t
 
 using TextureFunction = std::function<void(std::int64_t, float*)>;
 
-TextureFunction CopyTextures(vtkFieldData* fields)
+TextureFunction copyTextures(vtkFieldData* fields)
 {
-  auto* table = RequireArray<vtkFloatArray>(fields, po::TextureTableArray, "field data", "float");
+  auto* table = requireArray<vtkFloatArray>(fields, po::TextureTableArray, "field data", "float");
   return [table](std::int64_t row, float* texels)
   {
     const float* first = table->GetPointer(row * table->GetNumberOfComponents());
@@ -89,9 +88,9 @@ TextureFunction CopyTextures(vtkFieldData* fields)
   };
 }
 
-TextureFunction DecodeTextures(vtkFieldData* fields, double maximum)
+TextureFunction decodeTextures(vtkFieldData* fields, double maximum)
 {
-  auto* table = RequireArray<vtkUnsignedCharArray>(
+  auto* table = requireArray<vtkUnsignedCharArray>(
     fields, po::TextureTableArray, "field data", "unsigned char");
   if (!(maximum == 0.0 || (maximum >= po::SmallestGamma2Maximum && maximum <= VTK_FLOAT_MAX)))
   {
@@ -102,49 +101,48 @@ TextureFunction DecodeTextures(vtkFieldData* fields, double maximum)
   {
     const unsigned char* first = table->GetPointer(row * table->GetNumberOfComponents());
     std::transform(first, first + table->GetNumberOfComponents(), texels,
-      [maximum](unsigned char byte) { return po::DecodeGamma2(byte, maximum); });
+      [maximum](unsigned char byte) { return po::decodeGamma2(byte, maximum); });
   };
 }
 
-TextureFunction LinearTextures(vtkFieldData* fields, const po::OcclusionParameters& parameters)
+TextureFunction linearTextures(vtkFieldData* fields, const po::OcclusionParameters& parameters)
 {
-  const std::string& encoding = parameters.Get("encoding");
+  const std::string& encoding = parameters.get("encoding");
   if (encoding == po::UInt8Gamma2)
   {
-    return DecodeTextures(fields, parameters.GetDouble("maximum"));
+    return decodeTextures(fields, parameters.getDouble("maximum"));
   }
   if (encoding == po::Float32Linear)
   {
-    return CopyTextures(fields);
+    return copyTextures(fields);
   }
   throw std::runtime_error("The textures are encoded as \"" + encoding + "\"; only " +
     po::UInt8Gamma2 + " and " + po::Float32Linear + " can be written.");
 }
 
-po::OcclusionTextureSource DescribeInput(vtkPolyData* input)
+po::OcclusionTextureSource describeInput(vtkPolyData* input)
 {
   const vtkIdType points = input->GetNumberOfPoints();
   auto* means =
-    RequireArray<vtkFloatArray>(input->GetPointData(), po::OcclusionArray, "point data", "float");
+    requireArray<vtkFloatArray>(input->GetPointData(), po::OcclusionArray, "point data", "float");
   auto* rows =
-    RequireArray<vtkIntArray>(input->GetPointData(), po::TextureIndexArray, "point data", "int");
-  auto* table = RequireArray<vtkDataArray>(
+    requireArray<vtkIntArray>(input->GetPointData(), po::TextureIndexArray, "point data", "int");
+  auto* table = requireArray<vtkDataArray>(
     input->GetFieldData(), po::TextureTableArray, "field data", "numbers");
-  RequireOneValueAPoint(means, points);
-  RequireOneValueAPoint(rows, points);
-  RequireRows(rows, table->GetNumberOfTuples());
+  requireOneValueAPoint(means, points);
+  requireOneValueAPoint(rows, points);
+  requireRows(rows, table->GetNumberOfTuples());
 
   po::OcclusionTextureSource source;
-  source.Parameters = po::OcclusionParameters::FromFieldData(input->GetFieldData());
-  source.Resolution = RequireResolution(source.Parameters, table);
-  source.TextureCount = table->GetNumberOfTuples();
-  source.ParticleCount = points;
-  source.Texture = LinearTextures(input->GetFieldData(), source.Parameters);
-  source.Rows = rows->GetPointer(0);
-  source.Means = means->GetPointer(0);
+  source.parameters = po::OcclusionParameters::fromFieldData(input->GetFieldData());
+  source.resolution = requireResolution(source.parameters, table);
+  source.textureCount = table->GetNumberOfTuples();
+  source.particleCount = points;
+  source.texture = linearTextures(input->GetFieldData(), source.parameters);
+  source.rows = rows->GetPointer(0);
+  source.means = means->GetPointer(0);
   return source;
 }
-
 }
 
 vtkOcclusionTextureWriter::~vtkOcclusionTextureWriter()
@@ -174,10 +172,10 @@ void vtkOcclusionTextureWriter::WriteData()
   }
   try
   {
-    po::OcclusionTextureSource source = DescribeInput(vtkPolyData::SafeDownCast(this->GetInput()));
-    const TextureFunction texture = source.Texture;
-    const double count = static_cast<double>(source.TextureCount);
-    source.Texture = [&](std::int64_t row, float* texels)
+    po::OcclusionTextureSource source = describeInput(vtkPolyData::SafeDownCast(this->GetInput()));
+    const TextureFunction texture = source.texture;
+    const double count = static_cast<double>(source.textureCount);
+    source.texture = [&](std::int64_t row, float* texels)
     {
       if (row % 1024 == 0)
       {
@@ -185,7 +183,7 @@ void vtkOcclusionTextureWriter::WriteData()
       }
       texture(row, texels);
     };
-    po::WriteOcclusionTextures(this->FileName, source);
+    po::writeOcclusionTextures(this->FileName, source);
   }
   catch (const std::exception& error)
   {

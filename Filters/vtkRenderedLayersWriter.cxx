@@ -19,15 +19,14 @@ vtkStandardNewMacro(vtkRenderedLayersWriter);
 
 namespace
 {
-
 struct ImageSize
 {
-  int Width;
-  int Height;
-  std::size_t Pixels() const { return std::size_t(this->Width) * this->Height; }
+  int width;
+  int height;
+  [[nodiscard]] std::size_t pixels() const { return std::size_t(width) * height; }
 };
 
-ImageSize RequireImage(vtkImageData* image)
+ImageSize requireImage(vtkImageData* image)
 {
   std::array<int, 3> size;
   image->GetDimensions(size.data());
@@ -40,23 +39,23 @@ ImageSize RequireImage(vtkImageData* image)
   return { size[0], size[1] };
 }
 
-// Calls store(pixel in the file, tuple of the array): row 0 of the file is the top one of the
-// image.
+/// Calls store(pixel in the file, tuple of the array): row 0 of the file is the top one of the
+/// image.
 template <typename Store>
-void ForEachPixel(const ImageSize& size, const Store& store)
+void forEachPixel(const ImageSize& size, const Store& store)
 {
-  for (int row = 0; row < size.Height; ++row)
+  for (int row = 0; row < size.height; ++row)
   {
-    const vtkIdType tuple = vtkIdType{ size.Height - 1 - row } * size.Width;
-    for (int column = 0; column < size.Width; ++column)
+    const vtkIdType tuple = vtkIdType{ size.height - 1 - row } * size.width;
+    for (int column = 0; column < size.width; ++column)
     {
-      store(std::size_t(row) * size.Width + column, tuple + column);
+      store(std::size_t(row) * size.width + column, tuple + column);
     }
   }
 }
 
-// IEC 61966-2-1, the inverse of sRGB's transfer function.
-std::array<float, 256> LinearFromSrgb()
+/// IEC 61966-2-1, the inverse of sRGB's transfer function.
+std::array<float, 256> linearFromSrgb()
 {
   std::array<float, 256> linear;
   for (int byte = 0; byte < 256; ++byte)
@@ -68,17 +67,17 @@ std::array<float, 256> LinearFromSrgb()
   return linear;
 }
 
-void AddColor(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+void addColor(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
 {
   auto* bytes = vtkUnsignedCharArray::SafeDownCast(array);
   if (!bytes || bytes->GetNumberOfComponents() != 4)
   {
     throw std::runtime_error("The array \"RGBA\" must be of unsigned char with 4 components.");
   }
-  static const std::array<float, 256> linear = LinearFromSrgb();
+  static const std::array<float, 256> linear = linearFromSrgb();
   std::array<std::vector<half>, 4> planes;
-  planes.fill(std::vector<half>(size.Pixels()));
-  ForEachPixel(size,
+  planes.fill(std::vector<half>(size.pixels()));
+  forEachPixel(size,
     [&](std::size_t pixel, vtkIdType tuple)
     {
       const unsigned char* rgba = bytes->GetPointer(4 * tuple);
@@ -96,20 +95,20 @@ void AddColor(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrCha
   }
 }
 
-void AddIds(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+void addIds(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
 {
   if (array->GetNumberOfComponents() != 1)
   {
     throw std::runtime_error("The array \"id\" must have one component.");
   }
   // Doubles hold every id up to 2^53; what a UINT can hold is far below.
-  constexpr double largest = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> ids(size.Pixels());
-  ForEachPixel(size,
+  constexpr double Largest = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> ids(size.pixels());
+  forEachPixel(size,
     [&](std::size_t pixel, vtkIdType tuple)
     {
       const double id = array->GetComponent(tuple, 0);
-      if (!(id >= -1.0 && id <= largest))
+      if (!(id >= -1.0 && id <= Largest))
       {
         throw std::runtime_error("The array \"id\" holds " + std::to_string(id) +
           "; OpenEXR can hold 0 to 4294967294, and -1 for background.");
@@ -120,7 +119,7 @@ void AddIds(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChann
   channels.push_back({ "id", std::move(ids) });
 }
 
-void RequireComponents(vtkDataArray* array)
+void requireComponents(vtkDataArray* array)
 {
   const std::string name = array->GetName();
   const int components = array->GetNumberOfComponents();
@@ -133,15 +132,15 @@ void RequireComponents(vtkDataArray* array)
   }
 }
 
-void AddFloats(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+void addFloats(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
 {
-  RequireComponents(array);
+  requireComponents(array);
   const std::array<const char*, 4> suffixes = { ".X", ".Y", ".Z", ".W" };
   const int components = array->GetNumberOfComponents();
   for (int component = 0; component < components; ++component)
   {
-    std::vector<float> values(size.Pixels());
-    ForEachPixel(size,
+    std::vector<float> values(size.pixels());
+    forEachPixel(size,
       [&](std::size_t pixel, vtkIdType tuple)
       { values[pixel] = static_cast<float>(array->GetComponent(tuple, component)); });
     const std::string suffix = components > 1 ? suffixes[component] : "";
@@ -149,26 +148,26 @@ void AddFloats(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrCh
   }
 }
 
-bool IsReal(vtkDataArray* array)
+bool isReal(vtkDataArray* array)
 {
   return array->GetDataType() == VTK_FLOAT || array->GetDataType() == VTK_DOUBLE;
 }
 
-// Returns false for what has no place in the file.
-bool AddArray(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
+/// Returns false for what has no place in the file.
+bool addArray(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrChannel>& channels)
 {
   const std::string name = array->GetName() ? array->GetName() : "";
   if (name == "RGBA")
   {
-    AddColor(size, array, channels);
+    addColor(size, array, channels);
   }
-  else if (name == "id" && !IsReal(array))
+  else if (name == "id" && !isReal(array))
   {
-    AddIds(size, array, channels);
+    addIds(size, array, channels);
   }
-  else if (!name.empty() && name != "id" && IsReal(array))
+  else if (!name.empty() && name != "id" && isReal(array))
   {
-    AddFloats(size, array, channels);
+    addFloats(size, array, channels);
   }
   else
   {
@@ -177,17 +176,17 @@ bool AddArray(const ImageSize& size, vtkDataArray* array, std::vector<po::ExrCha
   return true;
 }
 
-// Returns the names of the arrays that are left out.
-std::string WriteImage(const std::string& fileName, vtkImageData* image)
+/// Returns the names of the arrays that are left out.
+std::string writeImage(const std::string& fileName, vtkImageData* image)
 {
-  const ImageSize size = RequireImage(image);
+  const ImageSize size = requireImage(image);
   std::vector<po::ExrChannel> channels;
   std::string leftOut;
   vtkPointData* arrays = image->GetPointData();
   for (int i = 0; i < arrays->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = arrays->GetArray(i);
-    if (!array || !AddArray(size, array, channels))
+    if (!array || !addArray(size, array, channels))
     {
       const char* name = arrays->GetArrayName(i);
       leftOut += std::string(leftOut.empty() ? "" : ", ") + (name ? name : "(unnamed)");
@@ -199,10 +198,9 @@ std::string WriteImage(const std::string& fileName, vtkImageData* image)
                              "(RGBA, Z, AO, N, id or any array of floats); it has: " +
       (leftOut.empty() ? "none" : leftOut) + ".");
   }
-  po::WriteExrLayers(fileName, size.Width, size.Height, channels);
+  po::writeExrLayers(fileName, size.width, size.height, channels);
   return leftOut;
 }
-
 }
 
 vtkRenderedLayersWriter::~vtkRenderedLayersWriter()
@@ -233,7 +231,7 @@ void vtkRenderedLayersWriter::WriteData()
   try
   {
     const std::string leftOut =
-      WriteImage(this->FileName, vtkImageData::SafeDownCast(this->GetInput()));
+      writeImage(this->FileName, vtkImageData::SafeDownCast(this->GetInput()));
     if (!leftOut.empty())
     {
       vtkWarningMacro(

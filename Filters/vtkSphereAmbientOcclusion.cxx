@@ -161,8 +161,8 @@ po::Background vtkSphereAmbientOcclusion::Internals::ReadBackground(vtkSphereAmb
         "BackgroundImage is empty: choose an OpenEXR file in latitude and "
         "longitude, or another Background.");
     }
-    po::LatLongImage image = po::ReadLatLongImage(self->BackgroundImage);
-    return po::ImageBackground{ image.Width, image.Height, std::move(image.Luminance) };
+    po::LatLongImage image = po::readLatLongImage(self->BackgroundImage);
+    return po::ImageBackground{ image.width, image.height, std::move(image.luminance) };
   }
   return po::UniformBackground{};
 }
@@ -206,38 +206,38 @@ po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
   const po::EncodedTable& table) const
 {
   po::OcclusionParameters parameters;
-  parameters.Set("version", ContractVersion);
-  parameters.Set("method", MethodNames[this->Method]);
-  parameters.Set("resolution", settings.textureResolution);
-  parameters.Set("samplesPerTexel", settings.samplesPerTexel);
-  parameters.Set("seed", self->Seed);
-  parameters.Set("encoding", EncodingNames[self->Encoding]);
-  parameters.Set("gamma", settings.encoding == po::Encoding::UInt8Gamma2 ? 2.0 : 1.0);
-  parameters.Set("maximum", table.maximum);
-  parameters.Set("insideThreshold", settings.insideThreshold);
-  parameters.Set("dilateInside", settings.dilateInside);
-  parameters.Set("maximumDistance", settings.maximumDistance);
-  parameters.Set("radiusArray", self->RadiusArray ? self->RadiusArray : "");
-  parameters.Set("radiusScale", self->RadiusScale);
-  parameters.Set("constantRadius", self->ConstantRadius);
-  parameters.Set("background", BackgroundNames[self->Background]);
+  parameters.set("version", ContractVersion);
+  parameters.set("method", MethodNames[this->Method]);
+  parameters.set("resolution", settings.textureResolution);
+  parameters.set("samplesPerTexel", settings.samplesPerTexel);
+  parameters.set("seed", self->Seed);
+  parameters.set("encoding", EncodingNames[self->Encoding]);
+  parameters.set("gamma", settings.encoding == po::Encoding::UInt8Gamma2 ? 2.0 : 1.0);
+  parameters.set("maximum", table.maximum);
+  parameters.set("insideThreshold", settings.insideThreshold);
+  parameters.set("dilateInside", settings.dilateInside);
+  parameters.set("maximumDistance", settings.maximumDistance);
+  parameters.set("radiusArray", self->RadiusArray ? self->RadiusArray : "");
+  parameters.set("radiusScale", self->RadiusScale);
+  parameters.set("constantRadius", self->ConstantRadius);
+  parameters.set("background", BackgroundNames[self->Background]);
   if (self->Background == Gradient)
   {
     std::ostringstream up;
     up.imbue(std::locale::classic());
     up.precision(17);
     up << self->BackgroundUp[0] << ' ' << self->BackgroundUp[1] << ' ' << self->BackgroundUp[2];
-    parameters.Set("backgroundUp", up.str());
-    parameters.Set("backgroundBottom", self->BackgroundBottom);
-    parameters.Set("backgroundTop", self->BackgroundTop);
+    parameters.set("backgroundUp", up.str());
+    parameters.set("backgroundBottom", self->BackgroundBottom);
+    parameters.set("backgroundTop", self->BackgroundTop);
   }
   if (self->Background == Image)
   {
-    parameters.Set("backgroundImage", self->BackgroundImage);
+    parameters.set("backgroundImage", self->BackgroundImage);
   }
-  parameters.Set("targetError", self->TargetError);
-  parameters.Set("estimatedError", this->EstimatedError);
-  parameters.Set("directions", this->Directions);
+  parameters.set("targetError", self->TargetError);
+  parameters.set("estimatedError", this->EstimatedError);
+  parameters.set("directions", this->Directions);
   return parameters;
 }
 

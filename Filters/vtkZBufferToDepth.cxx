@@ -22,8 +22,7 @@ vtkStandardNewMacro(vtkZBufferToDepth);
 
 namespace
 {
-
-std::optional<po::WindowToEye> Invert(vtkMatrix4x4* projection)
+std::optional<po::WindowToEye> invert(vtkMatrix4x4* projection)
 {
   const double determinant = projection ? projection->Determinant() : 0.0;
   if (!std::isfinite(determinant) || determinant == 0.0)
@@ -32,27 +31,26 @@ std::optional<po::WindowToEye> Invert(vtkMatrix4x4* projection)
   }
   po::Matrix4 inverse;
   vtkMatrix4x4::Invert(projection->GetData(), inverse.data());
-  return po::MakeWindowToEye(inverse);
+  return po::makeWindowToEye(inverse);
 }
 
 /// `zBuffer` and `depth` are row-major images of `width` x `height` pixels.
-void Convert(const po::WindowToEye& windowToEye, vtkDataArray* zBuffer, int width, int height,
+void convert(const po::WindowToEye& windowToEye, vtkDataArray* zBuffer, int width, int height,
   vtkFloatArray* depth)
 {
   for (int j = 0; j < height; ++j)
   {
-    const double y = po::PixelCenter(j, height);
+    const double y = po::pixelCenter(j, height);
     for (int i = 0; i < width; ++i)
     {
       const vtkIdType pixel = static_cast<vtkIdType>(j) * width + i;
       const double z = zBuffer->GetComponent(pixel, 0);
-      const double t = po::EyeDistance(windowToEye, po::PixelCenter(i, width), y, z);
+      const double t = po::eyeDistance(windowToEye, po::pixelCenter(i, width), y, z);
       depth->SetValue(pixel, static_cast<float>(t));
     }
   }
 }
-
-} // namespace
+}
 
 vtkZBufferToDepth::vtkZBufferToDepth() = default;
 vtkZBufferToDepth::~vtkZBufferToDepth() = default;
@@ -109,7 +107,7 @@ int vtkZBufferToDepth::RequestData(
                   "of values in [0, 1] is needed.");
     return 0;
   }
-  const auto windowToEye = Invert(this->ProjectionMatrix);
+  const auto windowToEye = invert(this->ProjectionMatrix);
   if (!windowToEye)
   {
     vtkErrorMacro("ProjectionMatrix is not set or singular: set the projection of the camera that "
@@ -120,7 +118,7 @@ int vtkZBufferToDepth::RequestData(
   vtkNew<vtkFloatArray> depth;
   depth->SetName("Z");
   depth->SetNumberOfTuples(input->GetNumberOfPoints());
-  Convert(*windowToEye, zBuffer, dimensions[0], dimensions[1], depth);
+  convert(*windowToEye, zBuffer, dimensions[0], dimensions[1], depth);
   output->CopyStructure(input);
   output->GetPointData()->SetScalars(depth);
   return 1;

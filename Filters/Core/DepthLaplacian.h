@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef DepthLaplacian_h
-#define DepthLaplacian_h
+#ifndef po_DepthLaplacian_h
+#define po_DepthLaplacian_h
 
 #include <optional>
 
@@ -22,7 +22,6 @@
 /// the repeated border counts a plane that recedes towards it with 3 times its slope per pixel.
 namespace po
 {
-
 /// Automatic threshold, as a share of the farthest visible depth. It follows the scale of the data
 /// and stays above the rounding of a 24-bit z-buffer (below 1/1000 of the farthest depth as long as
 /// the near plane is nearer than that by no more than the factor of 1000 that VTK allows).
@@ -35,54 +34,53 @@ constexpr double BackgroundMargin = 2.0;
 struct SilhouetteParameters
 {
   /// World units, >= 0; 0 = automatic.
-  double Threshold = 0.0;
+  double threshold = 0.0;
   /// World units, >= 0; 0 = automatic, just behind the farthest geometry.
-  double BackgroundDepth = 0.0;
+  double backgroundDepth = 0.0;
 };
 
 /// What SilhouetteParameters come to in one image, in world units.
 struct EdgeRule
 {
-  double Threshold;
-  double Background;
+  double threshold;
+  double background;
 };
 
-/// Row-major image, pixel (i, j) at Depth[j * Width + i].
+/// Row-major image, pixel (i, j) at depth[j * width + i].
 template <typename T>
 struct DepthImage
 {
-  const T* Depth;
-  int Width;
-  int Height;
+  const T* depth;
+  int width;
+  int height;
 };
 
 /// Half-open range of pixels.
 struct PixelBlock
 {
-  int ColumnBegin;
-  int ColumnEnd;
-  int RowBegin;
-  int RowEnd;
+  int columnBegin;
+  int columnEnd;
+  int rowBegin;
+  int rowEnd;
 };
 
 /// Largest finite depth; nothing where all is background.
 template <typename T>
-[[nodiscard]] std::optional<double> FarthestDepth(const DepthImage<T>& image);
+[[nodiscard]] std::optional<double> farthestDepth(const DepthImage<T>& image);
 
-/// Resolves the automatic values; `farthest` is what FarthestDepth returned for the same image.
-[[nodiscard]] EdgeRule ResolveEdgeRule(
+/// Resolves the automatic values; `farthest` is what farthestDepth returned for the same image.
+[[nodiscard]] EdgeRule resolveEdgeRule(
   const SilhouetteParameters& parameters, std::optional<double> farthest);
 
 /// 8 t(i, j) - sum of the eight neighbours, with `background` for every value that is not finite.
 template <typename T>
-[[nodiscard]] double DepthLaplacian(const DepthImage<T>& image, int i, int j, double background);
+[[nodiscard]] double depthLaplacian(const DepthImage<T>& image, int i, int j, double background);
 
 /// Writes 1 (edge) or 0 to strength[j * Width + i] for the pixels of the block. Reads the whole
 /// image, writes nothing outside of the block: blocks may run in parallel.
 template <typename T>
-void MarkSilhouettes(
+void markSilhouettes(
   const DepthImage<T>& image, const EdgeRule& rule, const PixelBlock& block, float* strength);
-
-} // namespace po
+}
 
 #endif

@@ -6,36 +6,34 @@
 
 namespace po
 {
-
-WindowToEye MakeWindowToEye(const Matrix4& inverseProjection)
+WindowToEye makeWindowToEye(const Matrix4& inverseProjection)
 {
   // With s = 1 - z the clip depth is 2 z - 1 = 1 - 2 s: substitute it into the third column.
   WindowToEye result{ inverseProjection, false };
   for (int row = 0; row < 4; ++row)
   {
     const double depthColumn = inverseProjection[4 * row + 2];
-    result.Matrix[4 * row + 2] = -2.0 * depthColumn;
-    result.Matrix[4 * row + 3] += depthColumn;
+    result.matrix[4 * row + 2] = -2.0 * depthColumn;
+    result.matrix[4 * row + 3] += depthColumn;
   }
-  result.Perspective = inverseProjection[4 * 3 + 2] != 0.0;
+  result.perspective = inverseProjection[4 * 3 + 2] != 0.0;
   return result;
 }
 
-double EyeDistance(const WindowToEye& windowToEye, double x, double y, double z)
+double eyeDistance(const WindowToEye& windowToEye, double x, double y, double z)
 {
   if (!(z < 1.0))
   {
     return std::numeric_limits<double>::infinity();
   }
-  const auto& m = windowToEye.Matrix;
+  const auto& m = windowToEye.matrix;
   std::array<double, 4> eye{};
   for (int row = 0; row < 4; ++row)
   {
     eye[row] = m[4 * row] * x + m[4 * row + 1] * y + m[4 * row + 2] * (1.0 - z) + m[4 * row + 3];
   }
   // The eye looks along -z.
-  return windowToEye.Perspective ? std::hypot(eye[0], eye[1], eye[2]) / std::abs(eye[3])
+  return windowToEye.perspective ? std::hypot(eye[0], eye[1], eye[2]) / std::abs(eye[3])
                                  : -eye[2] / eye[3];
 }
-
-} // namespace po
+}

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef EyeDistance_h
-#define EyeDistance_h
+#ifndef po_EyeDistance_h
+#define po_EyeDistance_h
 
 #include <array>
 
 /// From OpenGL's z-buffer to distance in world units.
 namespace po
 {
-
 /// Row-major 4x4 matrix, applied to column vectors.
 using Matrix4 = std::array<double, 16>;
 
@@ -15,27 +14,26 @@ using Matrix4 = std::array<double, 16>;
 /// z in [0, 1] as the z-buffer has it.
 struct WindowToEye
 {
-  Matrix4 Matrix;
+  Matrix4 matrix;
   /// Rays meet in the eye; otherwise they are parallel.
-  bool Perspective;
+  bool perspective;
 };
 
 /// From the inverse of the OpenGL projection (eye to clip coordinates, depth range [-1, 1]).
 ///
 /// The matrix works on 1 - z and not on z: far away, z is close to 1 and 1 - z is exact, so that
 /// nothing cancels, even in single precision.
-[[nodiscard]] WindowToEye MakeWindowToEye(const Matrix4& inverseProjection);
+[[nodiscard]] WindowToEye makeWindowToEye(const Matrix4& inverseProjection);
 
 /// Distance along the normalised eye ray (perspective) or along the view direction (parallel);
 /// +infinity for background (z >= 1) and for NaN.
-[[nodiscard]] double EyeDistance(const WindowToEye& windowToEye, double x, double y, double z);
+[[nodiscard]] double eyeDistance(const WindowToEye& windowToEye, double x, double y, double z);
 
 /// Centre of pixel i of `count` pixels, in [-1, 1].
-[[nodiscard]] inline double PixelCenter(int i, int count)
+[[nodiscard]] inline double pixelCenter(int i, int count)
 {
   return (2.0 * i + 1.0) / count - 1.0;
 }
-
-} // namespace po
+}
 
 #endif

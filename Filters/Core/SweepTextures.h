@@ -25,8 +25,8 @@ public:
   void fill(unsigned particle, float* values, float* shares) const;
 
   /// Squared standard errors of a watched particle's texels, from the spread of the subsets of
-  /// directions as if these were independent: subsets of a lattice complement each other, so the
-  /// true error is at most that, and up to half of it where visibility is smooth.
+  /// directions as if these were independent. Subsets of a lattice complement each other: measured,
+  /// the true error was mostly below the estimate, down to half of it where much is hidden.
   struct SquaredError
   {
     double sum = 0;  ///< weighted by outside area

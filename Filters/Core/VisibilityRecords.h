@@ -47,7 +47,7 @@ struct OpenWeights
 };
 
 /// The visibility of particles, in memory that is taken when a particle is first seen: at 16 x 16
-/// texels 1.7 KiB a visible particle and 2.9 KiB more where others overlap it.
+/// texels 1.7 KiB a visible particle and 3 KiB more where others overlap it.
 ///
 /// Threads may call expose() and keep() for different directions at once. All results are
 /// independent of their order.

@@ -12,28 +12,27 @@
 
 namespace
 {
-
 /// Side of the block that one pixel of the next level stands for, as in vtkSilhouetteFarthestFS.
 constexpr int ReductionBlock = 8;
 
-int AttachmentParameter(GLenum attachment, GLenum parameter)
+int attachmentParameter(GLenum attachment, GLenum parameter)
 {
   GLint value = 0;
   glGetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, attachment, parameter, &value);
   return value;
 }
 
-bool IsAttached(GLenum attachment)
+bool isAttached(GLenum attachment)
 {
-  return AttachmentParameter(attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE;
+  return attachmentParameter(attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE;
 }
 
-std::unique_ptr<vtkOpenGLQuadHelper> BuildQuad(vtkOpenGLRenderWindow* window, const char* source)
+std::unique_ptr<vtkOpenGLQuadHelper> buildQuad(vtkOpenGLRenderWindow* window, const char* source)
 {
   return std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source, nullptr);
 }
 
-bool IsCompiled(const std::unique_ptr<vtkOpenGLQuadHelper>& quad)
+bool isCompiled(const std::unique_ptr<vtkOpenGLQuadHelper>& quad)
 {
   return quad->Program && quad->Program->GetCompiled();
 }
@@ -43,20 +42,20 @@ class ActiveTexture
 {
 public:
   ActiveTexture(vtkShaderProgram* program, const char* name, vtkTextureObject* texture)
-    : Texture(texture)
+    : texture_(texture)
   {
-    this->Texture->Activate();
-    program->SetUniformi(name, this->Texture->GetTextureUnit());
+    texture_->Activate();
+    program->SetUniformi(name, texture_->GetTextureUnit());
   }
-  ~ActiveTexture() { this->Texture->Deactivate(); }
+  ~ActiveTexture() { texture_->Deactivate(); }
   ActiveTexture(const ActiveTexture&) = delete;
   void operator=(const ActiveTexture&) = delete;
 
 private:
-  vtkTextureObject* Texture;
+  vtkTextureObject* texture_;
 };
 
-void SetMatrix(vtkShaderProgram* program, const char* name, const po::Matrix4& matrix)
+void setMatrix(vtkShaderProgram* program, const char* name, const po::Matrix4& matrix)
 {
   std::array<float, 16> columns; // OpenGL has columns first
   for (int row = 0; row < 4; ++row)
@@ -73,58 +72,57 @@ void SetMatrix(vtkShaderProgram* program, const char* name, const po::Matrix4& m
 struct SavedState
 {
   explicit SavedState(vtkOpenGLState* state)
-    : Viewport(state)
-    , Scissor(state)
-    , ScissorTest(state, GL_SCISSOR_TEST)
-    , Blend(state, GL_BLEND)
-    , DepthTest(state, GL_DEPTH_TEST)
-    , DepthMask(state)
-    , BlendFunction(state)
+    : viewport(state)
+    , scissor(state)
+    , scissorTest(state, GL_SCISSOR_TEST)
+    , blend(state, GL_BLEND)
+    , depthTest(state, GL_DEPTH_TEST)
+    , depthMask(state)
+    , blendFunction(state)
   {
   }
-  vtkOpenGLState::ScopedglViewport Viewport;
-  vtkOpenGLState::ScopedglScissor Scissor;
-  vtkOpenGLState::ScopedglEnableDisable ScissorTest;
-  vtkOpenGLState::ScopedglEnableDisable Blend;
-  vtkOpenGLState::ScopedglEnableDisable DepthTest;
-  vtkOpenGLState::ScopedglDepthMask DepthMask;
-  vtkOpenGLState::ScopedglBlendFuncSeparate BlendFunction;
+  vtkOpenGLState::ScopedglViewport viewport;
+  vtkOpenGLState::ScopedglScissor scissor;
+  vtkOpenGLState::ScopedglEnableDisable scissorTest;
+  vtkOpenGLState::ScopedglEnableDisable blend;
+  vtkOpenGLState::ScopedglEnableDisable depthTest;
+  vtkOpenGLState::ScopedglDepthMask depthMask;
+  vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction;
 };
 
-void PrepareToDraw(vtkOpenGLState* state)
+void prepareToDraw(vtkOpenGLState* state)
 {
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->vtkglDisable(GL_BLEND);
   state->vtkglDisable(GL_DEPTH_TEST);
   state->vtkglDepthMask(GL_FALSE);
 }
+}
 
-} // namespace
-
-std::string SilhouettePainter::ReadDepth(vtkOpenGLRenderWindow* window,
+std::string SilhouettePainter::readDepth(vtkOpenGLRenderWindow* window,
   const SilhouetteViewport& viewport, const po::WindowToEye& windowToEye, bool whole)
 {
   GLint frame = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &frame);
-  const DepthFormat format = QueryDepthFormat(frame);
-  if (!format.Exists)
+  const DepthFormat format = queryDepthFormat(frame);
+  if (!format.exists)
   {
     return "The frame buffer has no depth.";
   }
 
   vtkOpenGLState* state = window->GetState();
   const SavedState saved(state);
-  PrepareToDraw(state);
+  prepareToDraw(state);
   state->PushFramebufferBindings();
-  this->Allocate(window, viewport, format);
-  const bool built = this->BuildPrograms();
-  const bool copied = built && this->CopyDepth(frame, viewport);
+  allocate(window, viewport, format);
+  const bool built = buildPrograms();
+  const bool copied = built && copyDepth(frame, viewport);
   if (copied)
   {
-    this->ComputeDistances(windowToEye);
-    if (whole || !this->FarthestOfWhole)
+    computeDistances(windowToEye);
+    if (whole || !farthestOfWhole_)
     {
-      this->FindFarthest();
+      findFarthest();
     }
   }
   state->PopFramebufferBindings();
@@ -137,171 +135,170 @@ std::string SilhouettePainter::ReadDepth(vtkOpenGLRenderWindow* window,
 
 bool SilhouettePainter::DepthFormat::operator==(const DepthFormat& other) const
 {
-  return this->Exists == other.Exists && this->Type == other.Type && this->Stencil == other.Stencil;
+  return exists == other.exists && type == other.type && stencil == other.stencil;
 }
 
-SilhouettePainter::DepthFormat SilhouettePainter::QueryDepthFormat(unsigned int frame)
+SilhouettePainter::DepthFormat SilhouettePainter::queryDepthFormat(unsigned int frame)
 {
   // The window system's own frame buffer (0) has other names.
   const GLenum depth = frame ? GL_DEPTH_ATTACHMENT : GL_DEPTH;
   const GLenum stencil = frame ? GL_STENCIL_ATTACHMENT : GL_STENCIL;
-  DepthFormat format{ IsAttached(depth), vtkTextureObject::Fixed24, IsAttached(stencil) };
-  if (!format.Exists)
+  DepthFormat format{ isAttached(depth), vtkTextureObject::Fixed24, isAttached(stencil) };
+  if (!format.exists)
   {
     return format;
   }
-  const int bits = AttachmentParameter(depth, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
-  if (AttachmentParameter(depth, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT)
+  const int bits = attachmentParameter(depth, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE);
+  if (attachmentParameter(depth, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE) == GL_FLOAT)
   {
-    format.Type = vtkTextureObject::Float32;
+    format.type = vtkTextureObject::Float32;
   }
   else if (bits != 24)
   {
-    format.Type = bits == 16 ? vtkTextureObject::Fixed16 : vtkTextureObject::Fixed32;
+    format.type = bits == 16 ? vtkTextureObject::Fixed16 : vtkTextureObject::Fixed32;
   }
   return format;
 }
 
-SilhouettePainter::Texture SilhouettePainter::AllocateFloat(int width, int height) const
+SilhouettePainter::Texture SilhouettePainter::allocateFloat(int width, int height) const
 {
   Texture texture = Texture::New();
-  texture->SetContext(this->Window);
+  texture->SetContext(window_);
   texture->SetMinificationFilter(vtkTextureObject::Nearest);
   texture->SetMagnificationFilter(vtkTextureObject::Nearest);
   texture->Allocate2D(width, height, 1, VTK_FLOAT);
   return texture;
 }
 
-void SilhouettePainter::Allocate(
+void SilhouettePainter::allocate(
   vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, const DepthFormat& format)
 {
-  const unsigned int width = viewport.Width;
-  const unsigned int height = viewport.Height;
-  if (this->Window == window && this->Depth && this->Depth->GetWidth() == width &&
-    this->Depth->GetHeight() == height && this->Format == format)
+  const unsigned int width = viewport.width;
+  const unsigned int height = viewport.height;
+  if (window_ == window && depth_ && depth_->GetWidth() == width && depth_->GetHeight() == height &&
+    format_ == format)
   {
     return;
   }
-  if (this->Window != window)
+  if (window_ != window)
   {
-    this->ReleaseGraphicsResources();
+    releaseGraphicsResources();
   }
-  this->Window = window;
-  this->Format = format;
+  window_ = window;
+  format_ = format;
 
-  this->Depth = Texture::New();
-  this->Depth->SetContext(window);
-  this->Depth->SetMinificationFilter(vtkTextureObject::Nearest);
-  this->Depth->SetMagnificationFilter(vtkTextureObject::Nearest);
-  format.Stencil ? this->Depth->AllocateDepthStencil(width, height)
-                 : this->Depth->AllocateDepth(width, height, format.Type);
+  depth_ = Texture::New();
+  depth_->SetContext(window);
+  depth_->SetMinificationFilter(vtkTextureObject::Nearest);
+  depth_->SetMagnificationFilter(vtkTextureObject::Nearest);
+  format.stencil ? depth_->AllocateDepthStencil(width, height)
+                 : depth_->AllocateDepth(width, height, format.type);
 
-  this->Distances = this->AllocateFloat(width, height);
-  this->Farthest.clear();
-  int columns = viewport.Width;
-  int rows = viewport.Height;
+  distances_ = allocateFloat(width, height);
+  farthest_.clear();
+  int columns = viewport.width;
+  int rows = viewport.height;
   do
   {
     columns = (columns + ReductionBlock - 1) / ReductionBlock;
     rows = (rows + ReductionBlock - 1) / ReductionBlock;
-    this->Farthest.push_back(this->AllocateFloat(columns, rows));
+    farthest_.push_back(allocateFloat(columns, rows));
   } while (columns > 1 || rows > 1);
 
-  this->Frame = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
-  this->Frame->SetContext(window);
+  frame_ = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+  frame_->SetContext(window);
 }
 
-bool SilhouettePainter::BuildPrograms()
+bool SilhouettePainter::buildPrograms()
 {
-  if (!this->DistanceQuad)
+  if (!distanceQuad_)
   {
-    this->DistanceQuad = BuildQuad(this->Window, vtkSilhouetteDistanceFS);
-    this->FarthestQuad = BuildQuad(this->Window, vtkSilhouetteFarthestFS);
-    this->LineQuad = BuildQuad(this->Window, vtkSilhouetteLineFS);
+    distanceQuad_ = buildQuad(window_, vtkSilhouetteDistanceFS);
+    farthestQuad_ = buildQuad(window_, vtkSilhouetteFarthestFS);
+    lineQuad_ = buildQuad(window_, vtkSilhouetteLineFS);
   }
-  return IsCompiled(this->DistanceQuad) && IsCompiled(this->FarthestQuad) &&
-    IsCompiled(this->LineQuad);
+  return isCompiled(distanceQuad_) && isCompiled(farthestQuad_) && isCompiled(lineQuad_);
 }
 
-bool SilhouettePainter::CopyDepth(unsigned int frame, const SilhouetteViewport& viewport)
+bool SilhouettePainter::copyDepth(unsigned int frame, const SilhouetteViewport& viewport)
 {
   while (glGetError() != GL_NO_ERROR)
   {
     // errors of others are not ours to report
   }
-  vtkOpenGLState* state = this->Window->GetState();
-  this->Frame->Bind();
-  this->Frame->AddColorAttachment(0, this->Distances);
-  this->Frame->AddDepthAttachment(this->Depth);
-  this->Frame->ActivateBuffer(0);
+  vtkOpenGLState* state = window_->GetState();
+  frame_->Bind();
+  frame_->AddColorAttachment(0, distances_);
+  frame_->AddDepthAttachment(depth_);
+  frame_->ActivateBuffer(0);
   // A blit, because it also resolves a multisampled buffer (to one of its samples).
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, frame);
-  state->vtkglBlitFramebuffer(viewport.X, viewport.Y, viewport.X + viewport.Width,
-    viewport.Y + viewport.Height, 0, 0, viewport.Width, viewport.Height, GL_DEPTH_BUFFER_BIT,
+  state->vtkglBlitFramebuffer(viewport.x, viewport.y, viewport.x + viewport.width,
+    viewport.y + viewport.height, 0, 0, viewport.width, viewport.height, GL_DEPTH_BUFFER_BIT,
     GL_NEAREST);
   // A texture that is attached must not be read.
-  this->Frame->RemoveDepthAttachment();
+  frame_->RemoveDepthAttachment();
   return glGetError() == GL_NO_ERROR;
 }
 
-void SilhouettePainter::DrawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad)
+void SilhouettePainter::drawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad)
 {
-  this->Frame->Bind();
-  this->Frame->AddColorAttachment(0, target);
-  this->Frame->ActivateBuffer(0);
-  this->Window->GetState()->vtkglViewport(0, 0, target->GetWidth(), target->GetHeight());
+  frame_->Bind();
+  frame_->AddColorAttachment(0, target);
+  frame_->ActivateBuffer(0);
+  window_->GetState()->vtkglViewport(0, 0, target->GetWidth(), target->GetHeight());
   quad.Render();
 }
 
-void SilhouettePainter::ComputeDistances(const po::WindowToEye& windowToEye)
+void SilhouettePainter::computeDistances(const po::WindowToEye& windowToEye)
 {
-  vtkShaderProgram* program = this->DistanceQuad->Program;
-  this->Window->GetShaderCache()->ReadyShaderProgram(program);
-  const ActiveTexture depth(program, "zBuffer", this->Depth);
-  program->SetUniformi("perspective", windowToEye.Perspective ? 1 : 0);
-  SetMatrix(program, "windowToEye", windowToEye.Matrix);
-  this->DrawInto(this->Distances, *this->DistanceQuad);
+  vtkShaderProgram* program = distanceQuad_->Program;
+  window_->GetShaderCache()->ReadyShaderProgram(program);
+  const ActiveTexture depth(program, "zBuffer", depth_);
+  program->SetUniformi("perspective", windowToEye.perspective ? 1 : 0);
+  setMatrix(program, "windowToEye", windowToEye.matrix);
+  drawInto(distances_, *distanceQuad_);
 }
 
-void SilhouettePainter::FindFarthest()
+void SilhouettePainter::findFarthest()
 {
-  vtkShaderProgram* program = this->FarthestQuad->Program;
-  this->Window->GetShaderCache()->ReadyShaderProgram(program);
-  vtkTextureObject* source = this->Distances;
-  for (const Texture& level : this->Farthest)
+  vtkShaderProgram* program = farthestQuad_->Program;
+  window_->GetShaderCache()->ReadyShaderProgram(program);
+  vtkTextureObject* source = distances_;
+  for (const Texture& level : farthest_)
   {
     const ActiveTexture distances(program, "distances", source);
-    this->DrawInto(level, *this->FarthestQuad);
+    drawInto(level, *farthestQuad_);
     source = level;
   }
-  this->FarthestOfWhole = source;
+  farthestOfWhole_ = source;
 }
 
-void SilhouettePainter::DrawLines(
+void SilhouettePainter::drawLines(
   const SilhouetteViewport& viewport, int margin, const SilhouetteStyle& style)
 {
-  vtkOpenGLState* state = this->Window->GetState();
+  vtkOpenGLState* state = window_->GetState();
   const SavedState saved(state);
-  PrepareToDraw(state);
-  state->vtkglViewport(viewport.X, viewport.Y, viewport.Width, viewport.Height);
+  prepareToDraw(state);
+  state->vtkglViewport(viewport.x, viewport.y, viewport.width, viewport.height);
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFuncSeparate(
     GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
-  vtkShaderProgram* program = this->LineQuad->Program;
-  this->Window->GetShaderCache()->ReadyShaderProgram(program);
-  const ActiveTexture distances(program, "distances", this->Distances);
-  const ActiveTexture farthest(program, "farthestDistance", this->FarthestOfWhole);
+  vtkShaderProgram* program = lineQuad_->Program;
+  window_->GetShaderCache()->ReadyShaderProgram(program);
+  const ActiveTexture distances(program, "distances", distances_);
+  const ActiveTexture farthest(program, "farthestDistance", farthestOfWhole_);
   program->SetUniformi("margin", margin);
-  program->SetUniformf("threshold", static_cast<float>(style.Edges.Threshold));
-  program->SetUniformf("backgroundDepth", static_cast<float>(style.Edges.BackgroundDepth));
+  program->SetUniformf("threshold", static_cast<float>(style.edges.threshold));
+  program->SetUniformf("backgroundDepth", static_cast<float>(style.edges.backgroundDepth));
   program->SetUniformf("automaticShare", static_cast<float>(po::AutomaticThresholdShare));
   program->SetUniformf("backgroundMargin", static_cast<float>(po::BackgroundMargin));
-  program->SetUniform4f("lineColor", style.Color.data());
-  this->LineQuad->Render();
+  program->SetUniform4f("lineColor", style.color.data());
+  lineQuad_->Render();
 }
 
-void SilhouettePainter::ReleaseGraphicsResources()
+void SilhouettePainter::releaseGraphicsResources()
 {
   *this = SilhouettePainter();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef SilhouettePainter_h
-#define SilhouettePainter_h
+#ifndef po_SilhouettePainter_h
+#define po_SilhouettePainter_h
 
 #include "DepthLaplacian.h"
 #include "EyeDistance.h"
@@ -21,17 +21,17 @@
 /// Pixels of a frame buffer.
 struct SilhouetteViewport
 {
-  int X;
-  int Y;
-  int Width;
-  int Height;
+  int x;
+  int y;
+  int width;
+  int height;
 };
 
 struct SilhouetteStyle
 {
-  po::SilhouetteParameters Edges;
+  po::SilhouetteParameters edges;
   /// RGB and opacity, in [0, 1].
-  std::array<float, 4> Color;
+  std::array<float, 4> color;
 };
 
 /// Reads the depth of a frame buffer and draws silhouettes over the same or another one. Keeps
@@ -43,14 +43,14 @@ public:
   /// shows the whole picture; automatic values of a tile are those of the last whole picture (of
   /// the tile itself if there was none), so that tiles fit together. Returns what went wrong;
   /// empty if nothing did.
-  std::string ReadDepth(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
+  std::string readDepth(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
     const po::WindowToEye& windowToEye, bool whole);
 
   /// Draws over the frame buffer that is bound for drawing. The depth that was read reaches
   /// `margin` pixels beyond the viewport on each side.
-  void DrawLines(const SilhouetteViewport& viewport, int margin, const SilhouetteStyle& style);
+  void drawLines(const SilhouetteViewport& viewport, int margin, const SilhouetteStyle& style);
 
-  void ReleaseGraphicsResources();
+  void releaseGraphicsResources();
 
 private:
   using Texture = vtkSmartPointer<vtkTextureObject>;
@@ -58,35 +58,35 @@ private:
   /// Depth format of a frame buffer. Depth is only copied between equal formats.
   struct DepthFormat
   {
-    bool Exists;
-    int Type; // vtkTextureObject's enumeration
-    bool Stencil;
+    bool exists;
+    int type; // vtkTextureObject's enumeration
+    bool stencil;
     bool operator==(const DepthFormat& other) const;
   };
 
-  static DepthFormat QueryDepthFormat(unsigned int frame);
-  void Allocate(
+  static DepthFormat queryDepthFormat(unsigned int frame);
+  void allocate(
     vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, const DepthFormat& format);
-  Texture AllocateFloat(int width, int height) const;
-  bool BuildPrograms();
+  Texture allocateFloat(int width, int height) const;
+  bool buildPrograms();
 
-  bool CopyDepth(unsigned int frame, const SilhouetteViewport& viewport);
-  void ComputeDistances(const po::WindowToEye& windowToEye);
-  void FindFarthest();
-  void DrawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad);
+  bool copyDepth(unsigned int frame, const SilhouetteViewport& viewport);
+  void computeDistances(const po::WindowToEye& windowToEye);
+  void findFarthest();
+  void drawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad);
 
-  vtkWeakPointer<vtkOpenGLRenderWindow> Window;
-  DepthFormat Format{};
-  vtkSmartPointer<vtkOpenGLFramebufferObject> Frame;
-  Texture Depth;
-  Texture Distances;
+  vtkWeakPointer<vtkOpenGLRenderWindow> window_;
+  DepthFormat format_{};
+  vtkSmartPointer<vtkOpenGLFramebufferObject> frame_;
+  Texture depth_;
+  Texture distances_;
   /// Each level holds the farthest distance of 8 x 8 pixels of the one before; the last is 1 x 1.
-  std::vector<Texture> Farthest;
+  std::vector<Texture> farthest_;
   /// The last level as found for the last whole picture.
-  Texture FarthestOfWhole;
-  std::unique_ptr<vtkOpenGLQuadHelper> DistanceQuad;
-  std::unique_ptr<vtkOpenGLQuadHelper> FarthestQuad;
-  std::unique_ptr<vtkOpenGLQuadHelper> LineQuad;
+  Texture farthestOfWhole_;
+  std::unique_ptr<vtkOpenGLQuadHelper> distanceQuad_;
+  std::unique_ptr<vtkOpenGLQuadHelper> farthestQuad_;
+  std::unique_ptr<vtkOpenGLQuadHelper> lineQuad_;
 };
 
 #endif

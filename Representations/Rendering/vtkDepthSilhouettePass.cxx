@@ -23,25 +23,24 @@ vtkStandardNewMacro(vtkDepthSilhouettePass);
 
 namespace
 {
-
 /// Where the renderer draws in the frame buffer that is bound.
-SilhouetteViewport ViewportOf(const vtkRenderState* state)
+SilhouetteViewport viewportOf(const vtkRenderState* state)
 {
   SilhouetteViewport viewport{};
   if (auto* frame = vtkOpenGLFramebufferObject::SafeDownCast(state->GetFrameBuffer()))
   {
-    frame->GetLastSize(viewport.Width, viewport.Height);
+    frame->GetLastSize(viewport.width, viewport.height);
   }
   else
   {
     state->GetRenderer()->GetTiledSizeAndOrigin(
-      &viewport.Width, &viewport.Height, &viewport.X, &viewport.Y);
+      &viewport.width, &viewport.height, &viewport.x, &viewport.y);
   }
   return viewport;
 }
 
 /// The projection that the mappers draw with; nothing if it is singular.
-std::optional<po::WindowToEye> WindowToEyeOf(vtkRenderer* renderer)
+std::optional<po::WindowToEye> windowToEyeOf(vtkRenderer* renderer)
 {
   vtkMatrix4x4* projection = renderer->GetActiveCamera()->GetProjectionTransformMatrix(
     renderer->GetTiledAspectRatio(), -1.0, 1.0);
@@ -52,32 +51,31 @@ std::optional<po::WindowToEye> WindowToEyeOf(vtkRenderer* renderer)
   }
   po::Matrix4 inverse;
   vtkMatrix4x4::Invert(projection->GetData(), inverse.data());
-  return po::MakeWindowToEye(inverse);
+  return po::makeWindowToEye(inverse);
 }
 
-vtkOpenGLRenderWindow* WindowOf(const vtkRenderState* state)
+vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state)
 {
   return vtkOpenGLRenderWindow::SafeDownCast(state->GetRenderer()->GetRenderWindow());
 }
 
 /// Not with an empty viewport or a degenerate camera.
-bool CanBeSeen(const vtkRenderState* state)
+bool canBeSeen(const vtkRenderState* state)
 {
-  const SilhouetteViewport viewport = ViewportOf(state);
-  return viewport.Width > 0 && viewport.Height > 0 && WindowToEyeOf(state->GetRenderer());
+  const SilhouetteViewport viewport = viewportOf(state);
+  return viewport.width > 0 && viewport.height > 0 && windowToEyeOf(state->GetRenderer());
 }
 
 /// The window shows one tile of a larger picture.
-bool IsTile(const vtkRenderState* state)
+bool isTile(const vtkRenderState* state)
 {
-  const int* scale = WindowOf(state)->GetTileScale();
+  const int* scale = windowOf(state)->GetTileScale();
   return scale[0] > 1 || scale[1] > 1;
 }
 
 /// Pixels around a tile that the Laplacian of the tile's pixels needs.
 constexpr int TileMargin = 1;
-
-} // namespace
+}
 
 struct vtkDepthSilhouettePass::Internals
 {
@@ -119,8 +117,8 @@ void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
   // While a selection is made, colours are identifiers and must stay untouched.
   const bool selecting = state->GetRenderer()->GetSelector() != nullptr;
   const bool lines =
-    this->LineVisibility && !selecting && this->CheckParameters() && CanBeSeen(state);
-  const bool tile = lines && IsTile(state);
+    this->LineVisibility && !selecting && this->CheckParameters() && canBeSeen(state);
+  const bool tile = lines && isTile(state);
   const bool margins = tile && this->TileMargins;
 
   std::string error = margins ? this->ReadDepthAroundTile(state) : std::string();
@@ -142,30 +140,30 @@ void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
 
 std::string vtkDepthSilhouettePass::ReadDepth(const vtkRenderState* state, bool whole)
 {
-  return this->Internal->Painter.ReadDepth(
-    WindowOf(state), ViewportOf(state), *WindowToEyeOf(state->GetRenderer()), whole);
+  return this->Internal->Painter.readDepth(
+    windowOf(state), viewportOf(state), *windowToEyeOf(state->GetRenderer()), whole);
 }
 
 std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* state)
 {
   vtkRenderer* renderer = state->GetRenderer();
-  vtkOpenGLRenderWindow* window = WindowOf(state);
-  const SilhouetteViewport tile = ViewportOf(state);
-  const SilhouetteViewport around{ 0, 0, tile.Width + 2 * TileMargin,
-    tile.Height + 2 * TileMargin };
+  vtkOpenGLRenderWindow* window = windowOf(state);
+  const SilhouetteViewport tile = viewportOf(state);
+  const SilhouetteViewport around{ 0, 0, tile.width + 2 * TileMargin,
+    tile.height + 2 * TileMargin };
 
   window->GetState()->PushFramebufferBindings();
   vtkNew<vtkOpenGLFramebufferObject> frame;
   frame->SetContext(window);
   frame->PopulateFramebuffer(
-    around.Width, around.Height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
+    around.width, around.height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
 
   // The tile's picture shrinks to the middle of the frame, so that its pixels stay what they are.
   vtkCamera* camera = renderer->GetActiveCamera();
   vtkSmartPointer<vtkHomogeneousTransform> own = camera->GetUserTransform();
   vtkNew<vtkTransform> shrink;
-  shrink->Scale(static_cast<double>(tile.Width) / around.Width,
-    static_cast<double>(tile.Height) / around.Height, 1.0);
+  shrink->Scale(static_cast<double>(tile.width) / around.width,
+    static_cast<double>(tile.height) / around.height, 1.0);
   if (own)
   {
     shrink->Concatenate(own->GetMatrix());
@@ -177,7 +175,7 @@ std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* st
   inside.SetFrameBuffer(frame);
   this->DelegatePass->Render(&inside);
   const std::string error =
-    this->Internal->Painter.ReadDepth(window, around, *WindowToEyeOf(renderer), false);
+    this->Internal->Painter.readDepth(window, around, *windowToEyeOf(renderer), false);
 
   camera->SetUserTransform(own);
   window->GetState()->PopFramebufferBindings();
@@ -189,13 +187,13 @@ void vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state, int margin)
   const SilhouetteStyle style{ { this->Threshold, this->BackgroundDepth },
     { static_cast<float>(this->Color[0]), static_cast<float>(this->Color[1]),
       static_cast<float>(this->Color[2]), static_cast<float>(this->Opacity) } };
-  this->Internal->Painter.DrawLines(ViewportOf(state), margin, style);
+  this->Internal->Painter.drawLines(viewportOf(state), margin, style);
 }
 
 void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Superclass::ReleaseGraphicsResources(window);
-  this->Internal->Painter.ReleaseGraphicsResources();
+  this->Internal->Painter.releaseGraphicsResources();
 }
 
 void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)

@@ -44,15 +44,15 @@ struct Ray
 struct Workload
 {
   explicit Workload(const std::string& family)
-    : spheres(po::MakeSyntheticSpheres(*po::SyntheticFamilyFromName(family), Particles, 1))
+    : spheres(po::makeSyntheticSpheres(*po::syntheticFamilyFromName(family), Particles, 1))
     , cloud(po::makeSphereCloud(
         Particles,
         [this](std::size_t i)
         {
-          const auto& c = spheres.Centers[i];
+          const auto& c = spheres.centers[i];
           return po::Vec3d{ c[0], c[1], c[2] };
         },
-        [this](std::size_t i) { return static_cast<double>(spheres.Radii[i]); }))
+        [this](std::size_t i) { return static_cast<double>(spheres.radii[i]); }))
     , scene(cloud)
   {
     for (std::size_t i = 0; i < BakedParticles; ++i)

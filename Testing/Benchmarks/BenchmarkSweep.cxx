@@ -52,13 +52,13 @@ struct Error
 po::SphereCloud readCloud(const std::string& name, std::size_t count)
 {
   std::vector<double> data;
-  if (const auto family = po::SyntheticFamilyFromName(name))
+  if (const auto family = po::syntheticFamilyFromName(name))
   {
-    const po::SyntheticSpheres spheres = po::MakeSyntheticSpheres(*family, count, 1);
+    const po::SyntheticSpheres spheres = po::makeSyntheticSpheres(*family, count, 1);
     for (std::size_t i = 0; i < count; ++i)
     {
-      data.insert(data.end(), spheres.Centers[i].begin(), spheres.Centers[i].end());
-      data.push_back(static_cast<double>(spheres.Radii[i]));
+      data.insert(data.end(), spheres.centers[i].begin(), spheres.centers[i].end());
+      data.push_back(static_cast<double>(spheres.radii[i]));
     }
   }
   else

@@ -69,14 +69,14 @@ struct Row
 DataSet synthetic(const std::string& family, std::size_t count)
 {
   const po::SyntheticSpheres spheres =
-    po::MakeSyntheticSpheres(*po::SyntheticFamilyFromName(family), count, 1);
+    po::makeSyntheticSpheres(*po::syntheticFamilyFromName(family), count, 1);
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> radii;
   radii->SetName("radius");
-  for (std::size_t i = 0; i < spheres.Radii.size(); ++i)
+  for (std::size_t i = 0; i < spheres.radii.size(); ++i)
   {
-    points->InsertNextPoint(spheres.Centers[i].data());
-    radii->InsertNextValue(spheres.Radii[i]);
+    points->InsertNextPoint(spheres.centers[i].data());
+    radii->InsertNextValue(spheres.radii[i]);
   }
   DataSet data{ family, vtkSmartPointer<vtkPolyData>::New() };
   data.particles->SetPoints(points);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef BruteForceVisibility_h
-#define BruteForceVisibility_h
+#ifndef po_BruteForceVisibility_h
+#define po_BruteForceVisibility_h
 
 #include "Random.h"
 #include "Sampling.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ExrTestSupport_h
-#define ExrTestSupport_h
+#ifndef po_ExrTestSupport_h
+#define po_ExrTestSupport_h
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -25,34 +25,34 @@ class TemporaryFolder
 {
 public:
   TemporaryFolder()
-    : Path(std::filesystem::temp_directory_path() /
+    : path_(std::filesystem::temp_directory_path() /
         ("ParticleOcclusion-" + std::to_string(std::random_device()())))
   {
-    std::filesystem::create_directory(this->Path);
+    std::filesystem::create_directory(path_);
   }
-  ~TemporaryFolder() { std::filesystem::remove_all(this->Path); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  std::string File(const std::string& name) const { return (this->Path / name).string(); }
-  std::size_t Count() const
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::size_t count() const
   {
-    return std::distance(std::filesystem::directory_iterator(this->Path), {});
+    return std::distance(std::filesystem::directory_iterator(path_), {});
   }
 
 private:
-  std::filesystem::path Path;
+  std::filesystem::path path_;
 };
 
 using Bytes = std::vector<char>;
 
-inline Bytes ReadBytes(const std::string& fileName)
+inline Bytes readBytes(const std::string& fileName)
 {
   std::ifstream stream(fileName, std::ios::binary);
   return Bytes(std::istreambuf_iterator<char>(stream), {});
 }
 
-inline void WriteBytes(const std::string& fileName, const Bytes& bytes)
+inline void writeBytes(const std::string& fileName, const Bytes& bytes)
 {
   std::ofstream(fileName, std::ios::binary).write(bytes.data(), bytes.size());
 }
@@ -63,27 +63,27 @@ class Messages
 public:
   explicit Messages(vtkObject* object)
   {
-    this->Error->SetClientData(&this->Errors);
-    this->Error->SetCallback(Messages::Keep);
-    this->Warning->SetClientData(&this->Warnings);
-    this->Warning->SetCallback(Messages::Keep);
-    object->AddObserver(vtkCommand::ErrorEvent, this->Error);
-    object->AddObserver(vtkCommand::WarningEvent, this->Warning);
+    error_->SetClientData(&errors);
+    error_->SetCallback(Messages::keep);
+    warning_->SetClientData(&warnings);
+    warning_->SetCallback(Messages::keep);
+    object->AddObserver(vtkCommand::ErrorEvent, error_);
+    object->AddObserver(vtkCommand::WarningEvent, warning_);
   }
 
-  std::vector<std::string> Errors;
-  std::vector<std::string> Warnings;
+  std::vector<std::string> errors;
+  std::vector<std::string> warnings;
 
 private:
-  static void Keep(vtkObject*, unsigned long, void* list, void* text)
+  static void keep(vtkObject*, unsigned long, void* list, void* text)
   {
     static_cast<std::vector<std::string>*>(list)->push_back(static_cast<const char*>(text));
   }
-  vtkNew<vtkCallbackCommand> Error;
-  vtkNew<vtkCallbackCommand> Warning;
+  vtkNew<vtkCallbackCommand> error_;
+  vtkNew<vtkCallbackCommand> warning_;
 };
 
-inline ::testing::AssertionResult OneMessage(
+inline ::testing::AssertionResult oneMessage(
   const std::vector<std::string>& messages, const std::string& part)
 {
   if (messages.size() == 1 && messages[0].find(part) != std::string::npos)
@@ -101,7 +101,7 @@ inline ::testing::AssertionResult OneMessage(
 
 /// What `act` throws, or an empty string.
 template <typename Act>
-std::string WhatIsThrown(const Act& act)
+std::string whatIsThrown(const Act& act)
 {
   try
   {
@@ -114,9 +114,9 @@ std::string WhatIsThrown(const Act& act)
   return {};
 }
 
-#define EXPECT_HAS(text, part) EXPECT_PRED_FORMAT2(Has, text, part)
+#define EXPECT_HAS(text, part) EXPECT_PRED_FORMAT2(has, text, part)
 
-inline ::testing::AssertionResult Has(
+inline ::testing::AssertionResult has(
   const char*, const char*, const std::string& text, const std::string& part)
 {
   if (text.find(part) != std::string::npos)
@@ -129,7 +129,7 @@ inline ::testing::AssertionResult Has(
 /// Damaged copies of a file: truncated at `count` lengths, and with 1 to 8 bytes changed at `count`
 /// random places, half of them in the first kilobyte, where the header is.
 template <typename Try>
-void ForEachDamage(const Bytes& whole, int count, const Try& attempt)
+void forEachDamage(const Bytes& whole, int count, const Try& attempt)
 {
   std::mt19937 random(20260101);
   const auto below = [&](std::size_t limit)
@@ -150,14 +150,14 @@ void ForEachDamage(const Bytes& whole, int count, const Try& attempt)
 
 #ifdef __linux__
 /// The most memory that this process ever had, in megabytes.
-inline long PeakMegabytes()
+inline long peakMegabytes()
 {
   rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss / 1024;
 }
 #else
-inline long PeakMegabytes()
+inline long peakMegabytes()
 {
   return 0;
 }
@@ -169,21 +169,21 @@ class FileSizeLimit
 {
 public:
   explicit FileSizeLimit(rlim_t bytes)
-    : Handler(std::signal(SIGXFSZ, SIG_IGN))
+    : handler_(std::signal(SIGXFSZ, SIG_IGN))
   {
-    getrlimit(RLIMIT_FSIZE, &this->Before);
-    const rlimit limit = { bytes, this->Before.rlim_max };
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit = { bytes, before_.rlim_max };
     setrlimit(RLIMIT_FSIZE, &limit);
   }
   ~FileSizeLimit()
   {
-    setrlimit(RLIMIT_FSIZE, &this->Before);
-    std::signal(SIGXFSZ, this->Handler);
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
   }
 
 private:
-  rlimit Before = {};
-  void (*Handler)(int);
+  rlimit before_ = {};
+  void (*handler_)(int);
 };
 #endif
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef OcclusionTextureTestData_h
-#define OcclusionTextureTestData_h
+#ifndef po_OcclusionTextureTestData_h
+#define po_OcclusionTextureTestData_h
 
 #include "ExrTestSupport.h"
 
@@ -21,22 +21,22 @@
 
 using PolyData = vtkSmartPointer<vtkPolyData>;
 
-inline po::OcclusionParameters SomeParameters(int resolution, const char* encoding, double maximum)
+inline po::OcclusionParameters someParameters(int resolution, const char* encoding, double maximum)
 {
   po::OcclusionParameters parameters;
-  parameters.Set("version", "1");
-  parameters.Set("method", "Reference");
-  parameters.Set("resolution", resolution);
-  parameters.Set("seed", 1);
-  parameters.Set("encoding", encoding);
-  parameters.Set("gamma", 2.0);
-  parameters.Set("maximum", maximum);
-  parameters.Set("background", "gradient, up = (0, 0, 1)");
+  parameters.set("version", "1");
+  parameters.set("method", "Reference");
+  parameters.set("resolution", resolution);
+  parameters.set("seed", 1);
+  parameters.set("encoding", encoding);
+  parameters.set("gamma", 2.0);
+  parameters.set("maximum", maximum);
+  parameters.set("background", "gradient, up = (0, 0, 1)");
   return parameters;
 }
 
 template <typename Table, typename Random>
-vtkSmartPointer<Table> SomeTable(int textures, int components, const Random& random)
+vtkSmartPointer<Table> someTable(int textures, int components, const Random& random)
 {
   auto table = vtkSmartPointer<Table>::New();
   table->SetName("AmbientOcclusionTextures");
@@ -49,7 +49,7 @@ vtkSmartPointer<Table> SomeTable(int textures, int components, const Random& ran
   return table;
 }
 
-inline PolyData SomeParticles(int particles, int textures)
+inline PolyData someParticles(int particles, int textures)
 {
   PolyData data = PolyData::New();
   vtkNew<vtkPoints> points;
@@ -70,27 +70,27 @@ inline PolyData SomeParticles(int particles, int textures)
   return data;
 }
 
-inline PolyData BakedBytes(int particles, int textures, int side, double maximum = 1.0)
+inline PolyData bakedBytes(int particles, int textures, int side, double maximum = 1.0)
 {
-  PolyData data = SomeParticles(particles, textures);
+  PolyData data = someParticles(particles, textures);
   std::mt19937 random(3);
-  data->GetFieldData()->AddArray(SomeTable<vtkUnsignedCharArray>(
+  data->GetFieldData()->AddArray(someTable<vtkUnsignedCharArray>(
     textures, side * side, [&]() { return static_cast<unsigned char>(random() % 256); }));
-  SomeParameters(side, po::UInt8Gamma2, maximum).ToFieldData(data->GetFieldData());
+  someParameters(side, po::UInt8Gamma2, maximum).toFieldData(data->GetFieldData());
   return data;
 }
 
-inline PolyData BakedFloats(int particles, int textures, int side)
+inline PolyData bakedFloats(int particles, int textures, int side)
 {
-  PolyData data = SomeParticles(particles, textures);
+  PolyData data = someParticles(particles, textures);
   std::mt19937 random(4);
-  data->GetFieldData()->AddArray(SomeTable<vtkFloatArray>(
+  data->GetFieldData()->AddArray(someTable<vtkFloatArray>(
     textures, side * side, [&]() { return std::generate_canonical<float, 24>(random); }));
-  SomeParameters(side, po::Float32Linear, 1.0).ToFieldData(data->GetFieldData());
+  someParameters(side, po::Float32Linear, 1.0).toFieldData(data->GetFieldData());
   return data;
 }
 
-inline void Write(vtkPolyData* data, const std::string& fileName)
+inline void write(vtkPolyData* data, const std::string& fileName)
 {
   vtkNew<vtkOcclusionTextureWriter> writer;
   writer->SetInputDataObject(data);
@@ -99,17 +99,17 @@ inline void Write(vtkPolyData* data, const std::string& fileName)
   ASSERT_EQ(writer->GetErrorCode(), vtkErrorCode::NoError);
 }
 
-inline PolyData Particles(vtkPolyData* baked)
+inline PolyData particles(vtkPolyData* baked)
 {
   PolyData bare = PolyData::New();
   bare->SetPoints(baked->GetPoints());
   return bare;
 }
 
-inline void ExpectSameStrings(vtkFieldData* expected, vtkFieldData* found)
+inline void expectSameStrings(vtkFieldData* expected, vtkFieldData* found)
 {
-  const auto entries = po::OcclusionParameters::FromFieldData(expected).Entries();
-  EXPECT_EQ(entries, po::OcclusionParameters::FromFieldData(found).Entries());
+  const auto entries = po::OcclusionParameters::fromFieldData(expected).entries();
+  EXPECT_EQ(entries, po::OcclusionParameters::fromFieldData(found).entries());
   EXPECT_EQ(entries.front().first, "version");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef ParameterTable_h
-#define ParameterTable_h
+#ifndef po_ParameterTable_h
+#define po_ParameterTable_h
 
 #include "vtkSmartPointer.h"
 #include "vtkXMLDataElement.h"

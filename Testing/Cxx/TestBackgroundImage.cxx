@@ -30,7 +30,6 @@ using IMATH_NAMESPACE::V2i;
 
 namespace
 {
-
 using Channels = std::map<std::string, std::vector<float>>;
 
 template <typename Pixel>
@@ -55,7 +54,7 @@ struct Converted
   std::map<std::string, std::vector<Pixel>> Pixels;
 };
 
-void AddChannels(Imf::Header& header, const Channels& channels, Imf::PixelType type)
+void addChannels(Imf::Header& header, const Channels& channels, Imf::PixelType type)
 {
   for (const auto& [name, values] : channels)
   {
@@ -64,10 +63,10 @@ void AddChannels(Imf::Header& header, const Channels& channels, Imf::PixelType t
 }
 
 template <typename Pixel>
-void WriteAs(
+void writeAs(
   const std::string& fileName, Imf::Header header, const Channels& channels, Imf::PixelType type)
 {
-  AddChannels(header, channels, type);
+  addChannels(header, channels, type);
   const Converted<Pixel> converted(channels);
   const Box2i& window = header.dataWindow();
   if (header.hasTileDescription())
@@ -82,13 +81,13 @@ void WriteAs(
   file.writePixels(window.max.y - window.min.y + 1);
 }
 
-void WriteFloats(const std::string& fileName, const Imf::Header& header, const Channels& channels)
+void writeFloats(const std::string& fileName, const Imf::Header& header, const Channels& channels)
 {
-  WriteAs<float>(fileName, header, channels, Imf::FLOAT);
+  writeAs<float>(fileName, header, channels, Imf::FLOAT);
 }
 
 // Small integers: exact in every pixel type.
-std::vector<float> Ramp(int count, int step)
+std::vector<float> ramp(int count, int step)
 {
   std::vector<float> values(count);
   for (int i = 0; i < count; ++i)
@@ -98,38 +97,37 @@ std::vector<float> Ramp(int count, int step)
   return values;
 }
 
-Channels Rgb(int count)
+Channels rgb(int count)
 {
-  return { { "R", Ramp(count, 1) }, { "G", Ramp(count, 3) }, { "B", Ramp(count, 7) } };
+  return { { "R", ramp(count, 1) }, { "G", ramp(count, 3) }, { "B", ramp(count, 7) } };
 }
 
-void ExpectLuminance(
+void expectLuminance(
   const po::LatLongImage& image, const Channels& rgb, double red, double green, double blue)
 {
   const std::size_t count = rgb.at("R").size();
-  ASSERT_EQ(image.Luminance.size(), count);
+  ASSERT_EQ(image.luminance.size(), count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const double expected = red * rgb.at("R")[i] + green * rgb.at("G")[i] + blue * rgb.at("B")[i];
-    ASSERT_NEAR(image.Luminance[i], expected, 1e-5 * (1.0 + expected)) << "pixel " << i;
+    ASSERT_NEAR(image.luminance[i], expected, 1e-5 * (1.0 + expected)) << "pixel " << i;
   }
 }
 
-std::string ErrorOf(const std::string& fileName)
+std::string errorOf(const std::string& fileName)
 {
-  return WhatIsThrown([&]() { po::ReadLatLongImage(fileName); });
+  return whatIsThrown([&]() { po::readLatLongImage(fileName); });
 }
 
 constexpr int Width = 150;
 constexpr int Height = 75; // more rows than are read at a time
-
 }
 
 TEST(BackgroundImage, RgbOfEveryTypeCompressionAndLayout)
 {
   TemporaryFolder folder;
-  const std::string file = folder.File("a.exr");
-  const Channels rgb = Rgb(Width * Height);
+  const std::string file = folder.file("a.exr");
+  const Channels channels = rgb(Width * Height);
   for (int compression = 0; compression < Imf::B44_COMPRESSION; ++compression)
   {
     for (bool tiled : { false, true })
@@ -141,12 +139,12 @@ TEST(BackgroundImage, RgbOfEveryTypeCompressionAndLayout)
       {
         header.setTileDescription(Imf::TileDescription(32, 16, Imf::ONE_LEVEL));
       }
-      WriteAs<float>(file, header, rgb, Imf::FLOAT);
-      ExpectLuminance(po::ReadLatLongImage(file), rgb, 0.2126, 0.7152, 0.0722);
-      WriteAs<half>(file, header, rgb, Imf::HALF);
-      ExpectLuminance(po::ReadLatLongImage(file), rgb, 0.2126, 0.7152, 0.0722);
-      WriteAs<unsigned int>(file, header, rgb, Imf::UINT);
-      ExpectLuminance(po::ReadLatLongImage(file), rgb, 0.2126, 0.7152, 0.0722);
+      writeAs<float>(file, header, channels, Imf::FLOAT);
+      expectLuminance(po::readLatLongImage(file), channels, 0.2126, 0.7152, 0.0722);
+      writeAs<half>(file, header, channels, Imf::HALF);
+      expectLuminance(po::readLatLongImage(file), channels, 0.2126, 0.7152, 0.0722);
+      writeAs<unsigned int>(file, header, channels, Imf::UINT);
+      expectLuminance(po::readLatLongImage(file), channels, 0.2126, 0.7152, 0.0722);
     }
   }
 }
@@ -160,56 +158,56 @@ TEST(BackgroundImage, FirstRowIsOnTopAndFirstColumnOnTheLeft)
     Imf::Header header(window, window);
     header.lineOrder() = order;
     const std::vector<float> values = { 1, 2, 3, 4, 5, 6, 7, 8 };
-    WriteFloats(folder.File("a.exr"), header, { { "Y", values } });
-    const po::LatLongImage image = po::ReadLatLongImage(folder.File("a.exr"));
-    EXPECT_EQ(image.Width, 4);
-    EXPECT_EQ(image.Height, 2);
-    EXPECT_EQ(image.Luminance, values);
+    writeFloats(folder.file("a.exr"), header, { { "Y", values } });
+    const po::LatLongImage image = po::readLatLongImage(folder.file("a.exr"));
+    EXPECT_EQ(image.width, 4);
+    EXPECT_EQ(image.height, 2);
+    EXPECT_EQ(image.luminance, values);
   }
 }
 
 TEST(BackgroundImage, LuminanceFollowsTheChromaticities)
 {
   TemporaryFolder folder;
-  const Channels rgb = Rgb(8 * 4);
+  const Channels channels = rgb(8 * 4);
   Imf::Header header(8, 4);
   // ITU-R BT.2020 and its luminance coefficients.
   Imf::addChromaticities(header,
     Imf::Chromaticities(
       V2f(0.708f, 0.292f), V2f(0.170f, 0.797f), V2f(0.131f, 0.046f), V2f(0.3127f, 0.3290f)));
-  WriteFloats(folder.File("a.exr"), header, rgb);
-  const po::LatLongImage image = po::ReadLatLongImage(folder.File("a.exr"));
-  for (std::size_t i = 0; i < image.Luminance.size(); ++i)
+  writeFloats(folder.file("a.exr"), header, channels);
+  const po::LatLongImage image = po::readLatLongImage(folder.file("a.exr"));
+  for (std::size_t i = 0; i < image.luminance.size(); ++i)
   {
     const double expected =
-      0.2627 * rgb.at("R")[i] + 0.6780 * rgb.at("G")[i] + 0.0593 * rgb.at("B")[i];
-    EXPECT_NEAR(image.Luminance[i], expected, 2e-4 * (1.0 + expected));
+      0.2627 * channels.at("R")[i] + 0.6780 * channels.at("G")[i] + 0.0593 * channels.at("B")[i];
+    EXPECT_NEAR(image.luminance[i], expected, 2e-4 * (1.0 + expected));
   }
 }
 
 TEST(BackgroundImage, OneChannelOfAnyNameAndAlphaIsIgnored)
 {
   TemporaryFolder folder;
-  const Channels channels = { { "sky.light", Ramp(32, 5) }, { "A", Ramp(32, 1) } };
-  WriteFloats(folder.File("a.exr"), Imf::Header(8, 4), channels);
-  EXPECT_EQ(po::ReadLatLongImage(folder.File("a.exr")).Luminance, channels.at("sky.light"));
+  const Channels channels = { { "sky.light", ramp(32, 5) }, { "A", ramp(32, 1) } };
+  writeFloats(folder.file("a.exr"), Imf::Header(8, 4), channels);
+  EXPECT_EQ(po::readLatLongImage(folder.file("a.exr")).luminance, channels.at("sky.light"));
 }
 
 TEST(BackgroundImage, SecondPartIsFound)
 {
   TemporaryFolder folder;
   std::vector<Imf::Header> headers(2, Imf::Header(4, 2));
-  const Channels two = { { "u", Ramp(8, 1) }, { "v", Ramp(8, 2) } };
-  const Channels light = { { "Y", Ramp(8, 3) } };
-  AddChannels(headers[0], two, Imf::FLOAT);
-  AddChannels(headers[1], light, Imf::FLOAT);
+  const Channels two = { { "u", ramp(8, 1) }, { "v", ramp(8, 2) } };
+  const Channels light = { { "Y", ramp(8, 3) } };
+  addChannels(headers[0], two, Imf::FLOAT);
+  addChannels(headers[1], light, Imf::FLOAT);
   for (int part = 0; part < 2; ++part)
   {
     headers[part].setName(part ? "light" : "motion");
     headers[part].setType(Imf::SCANLINEIMAGE);
   }
   {
-    Imf::MultiPartOutputFile file(folder.File("a.exr").c_str(), headers.data(), 2);
+    Imf::MultiPartOutputFile file(folder.file("a.exr").c_str(), headers.data(), 2);
     for (int number = 0; number < 2; ++number)
     {
       const Converted<float> converted(number ? light : two);
@@ -218,41 +216,41 @@ TEST(BackgroundImage, SecondPartIsFound)
       part.writePixels(2);
     }
   }
-  EXPECT_EQ(po::ReadLatLongImage(folder.File("a.exr")).Luminance, light.at("Y"));
+  EXPECT_EQ(po::readLatLongImage(folder.file("a.exr")).luminance, light.at("Y"));
 }
 
 TEST(BackgroundImage, BadPixelsAreCounted)
 {
   TemporaryFolder folder;
-  std::vector<float> values = Ramp(32, 1);
+  std::vector<float> values = ramp(32, 1);
   values[3] = -1.0f;
   values[9] = std::numeric_limits<float>::quiet_NaN();
   values[31] = std::numeric_limits<float>::infinity();
-  WriteFloats(folder.File("a.exr"), Imf::Header(8, 4), { { "Y", values } });
-  EXPECT_HAS(ErrorOf(folder.File("a.exr")), "3 of 32 pixels");
-  EXPECT_HAS(ErrorOf(folder.File("a.exr")), "a.exr");
+  writeFloats(folder.file("a.exr"), Imf::Header(8, 4), { { "Y", values } });
+  EXPECT_HAS(errorOf(folder.file("a.exr")), "3 of 32 pixels");
+  EXPECT_HAS(errorOf(folder.file("a.exr")), "a.exr");
 }
 
 TEST(BackgroundImage, UnsuitableImagesAreErrors)
 {
   TemporaryFolder folder;
-  const std::string file = folder.File("a.exr");
-  WriteFloats(file, Imf::Header(4, 2), { { "u", Ramp(8, 1) }, { "v", Ramp(8, 2) } });
-  EXPECT_HAS(ErrorOf(file), "u, v");
+  const std::string file = folder.file("a.exr");
+  writeFloats(file, Imf::Header(4, 2), { { "u", ramp(8, 1) }, { "v", ramp(8, 2) } });
+  EXPECT_HAS(errorOf(file), "u, v");
 
   Imf::Header cube(4, 24);
   Imf::addEnvmap(cube, Imf::ENVMAP_CUBE);
-  WriteFloats(file, cube, { { "Y", Ramp(96, 1) } });
-  EXPECT_HAS(ErrorOf(file), "cube map");
+  writeFloats(file, cube, { { "Y", ramp(96, 1) } });
+  EXPECT_HAS(errorOf(file), "cube map");
 
-  WriteFloats(
-    file, Imf::Header(Box2i(V2i(0), V2i(7, 7)), Box2i(V2i(2), V2i(5, 3))), { { "Y", Ramp(8, 1) } });
-  EXPECT_HAS(ErrorOf(file), "uncropped");
+  writeFloats(
+    file, Imf::Header(Box2i(V2i(0), V2i(7, 7)), Box2i(V2i(2), V2i(5, 3))), { { "Y", ramp(8, 1) } });
+  EXPECT_HAS(errorOf(file), "uncropped");
 
   Imf::Header subsampled(4, 2);
   subsampled.channels().insert("Y", Imf::Channel(Imf::FLOAT, 2, 2));
   {
-    const std::vector<float> values = Ramp(2, 1);
+    const std::vector<float> values = ramp(2, 1);
     Imf::FrameBuffer frame;
     frame.insert("Y",
       Imf::Slice::Make(
@@ -261,13 +259,13 @@ TEST(BackgroundImage, UnsuitableImagesAreErrors)
     output.setFrameBuffer(frame);
     output.writePixels(2);
   }
-  EXPECT_HAS(ErrorOf(file), "subsampled");
+  EXPECT_HAS(errorOf(file), "subsampled");
 }
 
 TEST(BackgroundImage, DeepImageIsAnError)
 {
   TemporaryFolder folder;
-  const std::string name = folder.File("deep.exr");
+  const std::string name = folder.file("deep.exr");
   Imf::Header header(4, 2);
   header.setType(Imf::DEEPSCANLINE);
   header.compression() = Imf::ZIPS_COMPRESSION;
@@ -284,18 +282,18 @@ TEST(BackgroundImage, DeepImageIsAnError)
     file.setFrameBuffer(frame);
     file.writePixels(2);
   }
-  EXPECT_HAS(ErrorOf(name), "deep image");
+  EXPECT_HAS(errorOf(name), "deep image");
 }
 
 TEST(BackgroundImage, AbsurdSizesAreRefusedBeforeAllocation)
 {
   TemporaryFolder folder;
-  const std::string file = folder.File("a.exr");
+  const std::string file = folder.file("a.exr");
   const auto claim = [&](int width, int height)
   {
     Imf::Header header(8, 4);
-    WriteFloats(file, header, { { "Y", Ramp(32, 1) } });
-    Bytes bytes = ReadBytes(file);
+    writeFloats(file, header, { { "Y", ramp(32, 1) } });
+    Bytes bytes = readBytes(file);
     // Both windows become width x height: "dataWindow\0box2i\0", size (4 bytes), min, max.
     for (const char* name : { "dataWindow", "displayWindow" })
     {
@@ -303,8 +301,8 @@ TEST(BackgroundImage, AbsurdSizesAreRefusedBeforeAllocation)
       const int max[2] = { width - 1, height - 1 };
       std::memcpy(&*at + std::strlen(name) + 1 + 6 + 4 + 8, max, sizeof(max));
     }
-    WriteBytes(file, bytes);
-    return ErrorOf(file);
+    writeBytes(file, bytes);
+    return errorOf(file);
   };
   EXPECT_EQ(claim(8, 4), "");
   EXPECT_HAS(claim(1 << 30, 1 << 30), "more than is allowed");
@@ -318,19 +316,19 @@ TEST(BackgroundImage, ForeignFilesAreErrorsThatNameThem)
 {
   TemporaryFolder folder;
   const std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
-  WriteBytes(folder.File("sky.hdr"), Bytes(text.begin(), text.end()));
-  EXPECT_HAS(ErrorOf(folder.File("sky.hdr")), "not an OpenEXR file");
-  EXPECT_HAS(ErrorOf(folder.File("sky.hdr")), "sky.hdr");
-  EXPECT_HAS(ErrorOf(folder.File("none.exr")), "no such file");
-  EXPECT_HAS(ErrorOf(folder.File("")), "not a file");
-  EXPECT_HAS(ErrorOf(""), "no such file");
+  writeBytes(folder.file("sky.hdr"), Bytes(text.begin(), text.end()));
+  EXPECT_HAS(errorOf(folder.file("sky.hdr")), "not an OpenEXR file");
+  EXPECT_HAS(errorOf(folder.file("sky.hdr")), "sky.hdr");
+  EXPECT_HAS(errorOf(folder.file("none.exr")), "no such file");
+  EXPECT_HAS(errorOf(folder.file("")), "not a file");
+  EXPECT_HAS(errorOf(""), "no such file");
 }
 
 TEST(BackgroundImage, DamagedFilesNeverCrash)
 {
-  const long peak = PeakMegabytes();
+  const long peak = peakMegabytes();
   TemporaryFolder folder;
-  const std::string file = folder.File("a.exr");
+  const std::string file = folder.file("a.exr");
   for (const auto compression : { Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION,
          Imf::RLE_COMPRESSION, Imf::DWAA_COMPRESSION })
   {
@@ -342,21 +340,21 @@ TEST(BackgroundImage, DamagedFilesNeverCrash)
       {
         header.setTileDescription(Imf::TileDescription(16, 16, Imf::ONE_LEVEL));
       }
-      WriteFloats(file, header, Rgb(40 * 36));
-      const Bytes whole = ReadBytes(file);
-      ForEachDamage(whole, 60,
+      writeFloats(file, header, rgb(40 * 36));
+      const Bytes whole = readBytes(file);
+      forEachDamage(whole, 60,
         [&](const Bytes& damaged)
         {
-          WriteBytes(file, damaged);
+          writeBytes(file, damaged);
           std::string error;
           po::LatLongImage image;
-          error = WhatIsThrown([&]() { image = po::ReadLatLongImage(file); });
-          EXPECT_EQ(image.Luminance.size(), std::size_t(image.Width) * image.Height);
-          EXPECT_NE(error.empty(), image.Luminance.empty());
+          error = whatIsThrown([&]() { image = po::readLatLongImage(file); });
+          EXPECT_EQ(image.luminance.size(), std::size_t(image.width) * image.height);
+          EXPECT_NE(error.empty(), image.luminance.empty());
           EXPECT_TRUE(damaged.size() == whole.size() || !error.empty());
           EXPECT_TRUE(error.empty() || error.find("a.exr") != std::string::npos) << error;
         });
     }
   }
-  EXPECT_LT(PeakMegabytes(), peak + 100);
+  EXPECT_LT(peakMegabytes(), peak + 100);
 }

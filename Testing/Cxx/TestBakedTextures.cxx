@@ -48,10 +48,10 @@ struct Block
   void describe(int resolution, double maximum)
   {
     OcclusionParameters parameters;
-    parameters.Set("resolution", resolution);
-    parameters.Set("encoding", UInt8Gamma2);
-    parameters.Set("maximum", maximum);
-    parameters.ToFieldData(this->data->GetFieldData());
+    parameters.set("resolution", resolution);
+    parameters.set("encoding", UInt8Gamma2);
+    parameters.set("maximum", maximum);
+    parameters.toFieldData(this->data->GetFieldData());
   }
 };
 

@@ -36,11 +36,10 @@
 
 namespace
 {
-
 constexpr int Width = 321;
 constexpr int Height = 243;
 
-void AddProp(vtkRenderer* renderer, vtkPolyDataAlgorithm* source, double red)
+void addProp(vtkRenderer* renderer, vtkPolyDataAlgorithm* source, double red)
 {
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputConnection(source->GetOutputPort());
@@ -51,7 +50,7 @@ void AddProp(vtkRenderer* renderer, vtkPolyDataAlgorithm* source, double red)
 }
 
 /// Three spheres and a cone in front of a slanted plane that leaves room for background.
-void FillScene(vtkRenderer* renderer)
+void fillScene(vtkRenderer* renderer)
 {
   const double centers[3][3] = { { 0.0, 0.0, 0.0 }, { 0.7, 0.3, -0.4 }, { -1.2, -0.5, 0.3 } };
   for (const auto& center : centers)
@@ -61,17 +60,17 @@ void FillScene(vtkRenderer* renderer)
     sphere->SetRadius(0.5);
     sphere->SetThetaResolution(96);
     sphere->SetPhiResolution(96);
-    AddProp(renderer, sphere, 0.9);
+    addProp(renderer, sphere, 0.9);
   }
   vtkNew<vtkConeSource> cone;
   cone->SetResolution(64);
   cone->SetCenter(0.2, -0.8, 0.6);
-  AddProp(renderer, cone, 0.2);
+  addProp(renderer, cone, 0.2);
   vtkNew<vtkPlaneSource> plane;
   plane->SetOrigin(-2.0, -2.0, -3.0);
   plane->SetPoint1(2.0, -2.0, -2.0);
   plane->SetPoint2(-2.0, 1.2, -4.0);
-  AddProp(renderer, plane, 0.5);
+  addProp(renderer, plane, 0.5);
 }
 
 struct Scene
@@ -88,7 +87,7 @@ struct Scene
     this->Window->SetSize(Width, Height);
     this->Window->AddRenderer(this->Renderer);
     this->Renderer->SetBackground(0.1, 0.2, 0.4);
-    FillScene(this->Renderer);
+    fillScene(this->Renderer);
     this->Pass->SetDelegatePass(this->Steps);
     this->Pass->SetColor(1.0, 0.0, 1.0); // nothing in the scene has it
     this->Renderer->SetPass(this->Pass);
@@ -98,7 +97,7 @@ struct Scene
 };
 
 /// The renderer's part of the window, row-major RGB.
-std::vector<unsigned char> Pixels(vtkRenderWindow* window, vtkRenderer* renderer)
+std::vector<unsigned char> pixels(vtkRenderWindow* window, vtkRenderer* renderer)
 {
   window->Render();
   const int* origin = renderer->GetOrigin();
@@ -110,7 +109,7 @@ std::vector<unsigned char> Pixels(vtkRenderWindow* window, vtkRenderer* renderer
 }
 
 /// The window's camera in a picture of `scale` times its size, row-major RGB.
-std::vector<unsigned char> TiledPixels(vtkRenderWindow* window, int scale)
+std::vector<unsigned char> tiledPixels(vtkRenderWindow* window, int scale)
 {
   vtkNew<vtkWindowToImageFilter> tiles;
   tiles->SetInput(window);
@@ -121,26 +120,26 @@ std::vector<unsigned char> TiledPixels(vtkRenderWindow* window, int scale)
   return { rgb->GetPointer(0), rgb->GetPointer(0) + rgb->GetNumberOfValues() };
 }
 
-bool IsLine(const std::vector<unsigned char>& rgb, std::size_t pixel)
+bool isLine(const std::vector<unsigned char>& rgb, std::size_t pixel)
 {
   return rgb[3 * pixel] == 255 && rgb[3 * pixel + 1] == 0 && rgb[3 * pixel + 2] == 255;
 }
 
 /// Number of pixels that have a line in one picture and none in the other.
-int DifferentLines(
+int differentLines(
   const std::vector<unsigned char>& first, const std::vector<unsigned char>& second)
 {
   EXPECT_EQ(first.size(), second.size());
   int different = 0;
   for (std::size_t pixel = 0; pixel < std::min(first.size(), second.size()) / 3; ++pixel)
   {
-    different += IsLine(first, pixel) != IsLine(second, pixel);
+    different += isLine(first, pixel) != isLine(second, pixel);
   }
   return different;
 }
 
 /// Depth image of the frame that was rendered last.
-vtkSmartPointer<vtkImageData> DepthOf(vtkRenderWindow* window, vtkRenderer* renderer)
+vtkSmartPointer<vtkImageData> depthOf(vtkRenderWindow* window, vtkRenderer* renderer)
 {
   const int* origin = renderer->GetOrigin();
   const int* size = renderer->GetSize();
@@ -157,7 +156,7 @@ vtkSmartPointer<vtkImageData> DepthOf(vtkRenderWindow* window, vtkRenderer* rend
   return convert->GetOutput();
 }
 
-std::vector<float> FilterLines(vtkImageData* depth, vtkDepthSilhouettePass* pass)
+std::vector<float> filterLines(vtkImageData* depth, vtkDepthSilhouettePass* pass)
 {
   vtkNew<vtkDepthSilhouettes> filter;
   filter->SetInputData(depth);
@@ -169,10 +168,10 @@ std::vector<float> FilterLines(vtkImageData* depth, vtkDepthSilhouettePass* pass
 }
 
 /// How far the Laplacian of the pixel is from the threshold, as a share of the farthest depth.
-double Margin(const po::DepthImage<float>& image, const po::EdgeRule& rule, int i, int j)
+double margin(const po::DepthImage<float>& image, const po::EdgeRule& rule, int i, int j)
 {
-  const double value = po::DepthLaplacian(image, i, j, rule.Background);
-  return std::abs(value - rule.Threshold) / rule.Background;
+  const double value = po::depthLaplacian(image, i, j, rule.background);
+  return std::abs(value - rule.threshold) / rule.background;
 }
 
 /// Compares the pass with the filter on the same z-buffer, pixel by pixel.
@@ -180,17 +179,17 @@ double Margin(const po::DepthImage<float>& image, const po::EdgeRule& rule, int 
 /// Tolerance: shaders compute in single precision. A distance has a relative error of up to 4 units
 /// of 2^-24 (matrix, square root, quotient, storage), a Laplacian 16 times that of the farthest
 /// depth. Only pixels that close to the threshold may differ, and they must be rare.
-void ExpectAgreement(Scene& scene, vtkRenderer* renderer, vtkDepthSilhouettePass* pass)
+void expectAgreement(Scene& scene, vtkRenderer* renderer, vtkDepthSilhouettePass* pass)
 {
-  const auto rgb = Pixels(scene.Window, renderer);
-  const auto depth = DepthOf(scene.Window, renderer);
-  const auto expected = FilterLines(depth, pass);
+  const auto rgb = pixels(scene.Window, renderer);
+  const auto depth = depthOf(scene.Window, renderer);
+  const auto expected = filterLines(depth, pass);
   int size[3];
   depth->GetDimensions(size);
   auto* values = vtkFloatArray::SafeDownCast(depth->GetPointData()->GetScalars());
   const po::DepthImage<float> image{ values->GetPointer(0), size[0], size[1] };
-  const po::EdgeRule rule = po::ResolveEdgeRule(
-    { pass->GetThreshold(), pass->GetBackgroundDepth() }, po::FarthestDepth(image));
+  const po::EdgeRule rule = po::resolveEdgeRule(
+    { pass->GetThreshold(), pass->GetBackgroundDepth() }, po::farthestDepth(image));
 
   const double tolerance = 16.0 * 4.0 * std::ldexp(1.0, -24);
   int lines = 0;
@@ -201,12 +200,12 @@ void ExpectAgreement(Scene& scene, vtkRenderer* renderer, vtkDepthSilhouettePass
     {
       const std::size_t pixel = static_cast<std::size_t>(j) * size[0] + i;
       lines += expected[pixel] > 0.0F;
-      if (Margin(image, rule, i, j) < tolerance)
+      if (margin(image, rule, i, j) < tolerance)
       {
         ++undecided;
         continue;
       }
-      EXPECT_EQ(IsLine(rgb, pixel), expected[pixel] > 0.0F) << "pixel " << i << ", " << j;
+      EXPECT_EQ(isLine(rgb, pixel), expected[pixel] > 0.0F) << "pixel " << i << ", " << j;
     }
   }
   EXPECT_GT(lines, 200);
@@ -215,7 +214,7 @@ void ExpectAgreement(Scene& scene, vtkRenderer* renderer, vtkDepthSilhouettePass
 }
 
 /// All ways to set threshold and background.
-void ExpectAgreementForAllParameters(Scene& scene)
+void expectAgreementForAllParameters(Scene& scene)
 {
   for (const double threshold : { 0.0, 0.3 })
   {
@@ -225,24 +224,23 @@ void ExpectAgreementForAllParameters(Scene& scene)
         testing::Message() << "Threshold " << threshold << ", BackgroundDepth " << background);
       scene.Pass->SetThreshold(threshold);
       scene.Pass->SetBackgroundDepth(background);
-      ExpectAgreement(scene, scene.Renderer, scene.Pass);
+      expectAgreement(scene, scene.Renderer, scene.Pass);
     }
   }
 }
-
-} // namespace
+}
 
 TEST(DepthSilhouettePass, AgreesWithTheFilterInPerspective)
 {
   Scene scene;
-  ExpectAgreementForAllParameters(scene);
+  expectAgreementForAllParameters(scene);
 }
 
 TEST(DepthSilhouettePass, AgreesWithTheFilterInParallelProjection)
 {
   Scene scene;
   scene.Renderer->GetActiveCamera()->ParallelProjectionOn();
-  ExpectAgreementForAllParameters(scene);
+  expectAgreementForAllParameters(scene);
 }
 
 TEST(DepthSilhouettePass, AgreesWithTheFilterOffCentreAndClose)
@@ -253,7 +251,7 @@ TEST(DepthSilhouettePass, AgreesWithTheFilterOffCentreAndClose)
   camera->Dolly(1.8);
   camera->SetViewAngle(70.0);
   scene.Renderer->ResetCameraClippingRange();
-  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, scene.Renderer, scene.Pass);
 }
 
 TEST(DepthSilhouettePass, AgreesWithTheFilterOnAMultisampledWindow)
@@ -264,14 +262,14 @@ TEST(DepthSilhouettePass, AgreesWithTheFilterOnAMultisampledWindow)
   {
     GTEST_SKIP() << "this OpenGL has no multisampling";
   }
-  ExpectAgreementForAllParameters(scene);
+  expectAgreementForAllParameters(scene);
 }
 
 TEST(DepthSilhouettePass, AgreesWithTheFilterWithAStencilBuffer)
 {
   Scene scene;
   scene.Window->SetStencilCapable(1);
-  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, scene.Renderer, scene.Pass);
 }
 
 TEST(DepthSilhouettePass, EachViewportHasItsOwnLines)
@@ -280,7 +278,7 @@ TEST(DepthSilhouettePass, EachViewportHasItsOwnLines)
   vtkNew<vtkRenderer> second;
   vtkNew<vtkRenderStepsPass> steps;
   vtkNew<vtkDepthSilhouettePass> pass;
-  FillScene(second);
+  fillScene(second);
   pass->SetDelegatePass(steps);
   pass->SetColor(1.0, 0.0, 1.0);
   second->SetPass(pass);
@@ -291,8 +289,8 @@ TEST(DepthSilhouettePass, EachViewportHasItsOwnLines)
   second->ResetCamera();
   second->GetActiveCamera()->Elevation(30.0);
   second->ResetCameraClippingRange();
-  ExpectAgreement(scene, scene.Renderer, scene.Pass);
-  ExpectAgreement(scene, second, pass);
+  expectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, second, pass);
 }
 
 TEST(DepthSilhouettePass, LinesContinueAcrossTiles)
@@ -302,22 +300,22 @@ TEST(DepthSilhouettePass, LinesContinueAcrossTiles)
   // The cube's lower side and its left one lie on the seams between the tiles.
   vtkNew<vtkCubeSource> cube;
   cube->SetBounds(0.0, 0.4, 0.0, 0.5, 1.0, 1.5);
-  AddProp(scene.Renderer, cube, 0.6);
+  addProp(scene.Renderer, cube, 0.6);
   vtkCamera* camera = scene.Renderer->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetFocalPoint(0.0, 0.0, 0.0);
   camera->SetPosition(0.0, 0.0, 8.0);
   camera->SetParallelScale(1.5);
   scene.Renderer->ResetCameraClippingRange();
-  const auto whole = Pixels(scene.Window, scene.Renderer);
+  const auto whole = pixels(scene.Window, scene.Renderer);
 
   scene.Window->SetSize(160, 120);
   scene.Window->Render();
   // The tiles' matrices round differently, so that a surface may gain or lose a pixel at its edge;
   // the two sides of the cube have more than 30 pixels each.
-  EXPECT_LE(DifferentLines(whole, TiledPixels(scene.Window, 2)), 8);
+  EXPECT_LE(differentLines(whole, tiledPixels(scene.Window, 2)), 8);
   scene.Pass->TileMarginsOff();
-  EXPECT_GE(DifferentLines(whole, TiledPixels(scene.Window, 2)), 30);
+  EXPECT_GE(differentLines(whole, tiledPixels(scene.Window, 2)), 30);
 }
 
 TEST(DepthSilhouettePass, ChangesNothingButTheLine)
@@ -325,16 +323,16 @@ TEST(DepthSilhouettePass, ChangesNothingButTheLine)
   for (const int samples : { 0, 8 })
   {
     Scene scene(samples);
-    const auto with = Pixels(scene.Window, scene.Renderer);
-    const auto depth = DepthOf(scene.Window, scene.Renderer);
+    const auto with = pixels(scene.Window, scene.Renderer);
+    const auto depth = depthOf(scene.Window, scene.Renderer);
     scene.Pass->LineVisibilityOff();
-    const auto without = Pixels(scene.Window, scene.Renderer);
-    const auto depthWithout = DepthOf(scene.Window, scene.Renderer);
+    const auto without = pixels(scene.Window, scene.Renderer);
+    const auto depthWithout = depthOf(scene.Window, scene.Renderer);
     ASSERT_EQ(with.size(), without.size());
     for (std::size_t pixel = 0; pixel < with.size() / 3; ++pixel)
     {
-      EXPECT_FALSE(IsLine(without, pixel));
-      for (int channel = 0; channel < 3 && !IsLine(with, pixel); ++channel)
+      EXPECT_FALSE(isLine(without, pixel));
+      for (int channel = 0; channel < 3 && !isLine(with, pixel); ++channel)
       {
         EXPECT_EQ(with[3 * pixel + channel], without[3 * pixel + channel]) << "pixel " << pixel;
       }
@@ -342,26 +340,26 @@ TEST(DepthSilhouettePass, ChangesNothingButTheLine)
         depthWithout->GetPointData()->GetScalars()->GetTuple1(pixel));
     }
     scene.Renderer->SetPass(nullptr);
-    EXPECT_EQ(Pixels(scene.Window, scene.Renderer), without);
+    EXPECT_EQ(pixels(scene.Window, scene.Renderer), without);
   }
 }
 
 TEST(DepthSilhouettePass, SurvivesResizeReleaseAndEmptyScenes)
 {
   Scene scene;
-  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, scene.Renderer, scene.Pass);
   scene.Window->SetSize(150, 200);
-  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, scene.Renderer, scene.Pass);
   scene.Pass->ReleaseGraphicsResources(scene.Window);
-  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, scene.Renderer, scene.Pass);
   scene.Window->Finalize();
   scene.Window->SetSize(Width, Height);
-  ExpectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, scene.Renderer, scene.Pass);
   scene.Renderer->RemoveAllViewProps();
-  const auto rgb = Pixels(scene.Window, scene.Renderer);
+  const auto rgb = pixels(scene.Window, scene.Renderer);
   for (std::size_t pixel = 0; pixel < rgb.size() / 3; ++pixel)
   {
-    EXPECT_FALSE(IsLine(rgb, pixel));
+    EXPECT_FALSE(isLine(rgb, pixel));
   }
 }
 
@@ -370,13 +368,13 @@ TEST(DepthSilhouettePass, OpacityBlends)
   Scene scene;
   scene.Pass->SetColor(0.0, 0.0, 0.0);
   scene.Pass->SetOpacity(0.0);
-  const auto clear = Pixels(scene.Window, scene.Renderer);
+  const auto clear = pixels(scene.Window, scene.Renderer);
   scene.Pass->LineVisibilityOff();
-  EXPECT_EQ(Pixels(scene.Window, scene.Renderer), clear);
+  EXPECT_EQ(pixels(scene.Window, scene.Renderer), clear);
   scene.Pass->LineVisibilityOn();
   scene.Pass->SetOpacity(0.5);
-  const auto half = Pixels(scene.Window, scene.Renderer);
-  const auto lines = FilterLines(DepthOf(scene.Window, scene.Renderer), scene.Pass);
+  const auto half = pixels(scene.Window, scene.Renderer);
+  const auto lines = filterLines(depthOf(scene.Window, scene.Renderer), scene.Pass);
   int wrong = 0;
   for (std::size_t value = 0; value < half.size(); ++value)
   {
@@ -390,7 +388,7 @@ TEST(DepthSilhouettePass, WrongParametersAreReportedAndDrawNoLines)
 {
   Scene scene;
   scene.Pass->LineVisibilityOff();
-  const auto without = Pixels(scene.Window, scene.Renderer);
+  const auto without = pixels(scene.Window, scene.Renderer);
   scene.Pass->LineVisibilityOn();
   std::string errors;
   vtkNew<vtkCallbackCommand> catcher;
@@ -401,11 +399,11 @@ TEST(DepthSilhouettePass, WrongParametersAreReportedAndDrawNoLines)
   for (const double wrong : { -1.0, std::numeric_limits<double>::quiet_NaN() })
   {
     scene.Pass->SetThreshold(wrong);
-    EXPECT_EQ(Pixels(scene.Window, scene.Renderer), without);
+    EXPECT_EQ(pixels(scene.Window, scene.Renderer), without);
     EXPECT_NE(errors.find("Threshold"), std::string::npos);
     scene.Pass->SetThreshold(0.0);
     scene.Pass->SetBackgroundDepth(wrong);
-    EXPECT_EQ(Pixels(scene.Window, scene.Renderer), without);
+    EXPECT_EQ(pixels(scene.Window, scene.Renderer), without);
     EXPECT_NE(errors.find("BackgroundDepth"), std::string::npos);
     scene.Pass->SetBackgroundDepth(0.0);
   }

@@ -21,7 +21,6 @@
 
 namespace
 {
-
 constexpr float Infinity = std::numeric_limits<float>::infinity();
 
 /// Keeps what an algorithm reports instead of printing it.
@@ -37,7 +36,7 @@ public:
 };
 
 template <typename Array>
-vtkSmartPointer<Array> AddArray(vtkImageData* image, const char* name, int components)
+vtkSmartPointer<Array> addArray(vtkImageData* image, const char* name, int components)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
@@ -50,11 +49,11 @@ vtkSmartPointer<Array> AddArray(vtkImageData* image, const char* name, int compo
 
 /// An image whose extent does not start at 0, with a disc before the background in array Z and a
 /// step at column 10 of its own; a second slice is a hundred times as deep.
-vtkSmartPointer<vtkImageData> MakeImage(int slices)
+vtkSmartPointer<vtkImageData> makeImage(int slices)
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetExtent(-3, 60, 5, 54, 2, 1 + slices);
-  auto z = AddArray<vtkFloatArray>(image, "Z", 1);
+  auto z = addArray<vtkFloatArray>(image, "Z", 1);
   vtkIdType pixel = 0;
   for (int k = 0; k < slices; ++k)
   {
@@ -70,7 +69,7 @@ vtkSmartPointer<vtkImageData> MakeImage(int slices)
   return image;
 }
 
-std::vector<float> Values(vtkImageData* image)
+std::vector<float> values(vtkImageData* image)
 {
   auto* array = vtkFloatArray::SafeDownCast(image->GetPointData()->GetArray("Silhouette"));
   if (!array)
@@ -80,7 +79,7 @@ std::vector<float> Values(vtkImageData* image)
   return { array->GetPointer(0), array->GetPointer(0) + array->GetNumberOfTuples() };
 }
 
-std::string ErrorOf(vtkAlgorithm* filter)
+std::string errorOf(vtkAlgorithm* filter)
 {
   vtkNew<ErrorCatcher> own;
   vtkNew<ErrorCatcher> executive;
@@ -89,13 +88,12 @@ std::string ErrorOf(vtkAlgorithm* filter)
   filter->Update();
   return own->Text;
 }
-
-} // namespace
+}
 
 TEST(DepthSilhouettes, AddsTheLineToTheInputsArrays)
 {
-  const auto image = MakeImage(1);
-  AddArray<vtkUnsignedCharArray>(image, "RGBA", 4);
+  const auto image = makeImage(1);
+  addArray<vtkUnsignedCharArray>(image, "RGBA", 4);
   image->GetPointData()->SetActiveScalars("RGBA");
   vtkNew<vtkDepthSilhouettes> filter;
   filter->SetInputData(image);
@@ -105,7 +103,7 @@ TEST(DepthSilhouettes, AddsTheLineToTheInputsArrays)
   EXPECT_TRUE(output->GetPointData()->HasArray("Z"));
   EXPECT_TRUE(output->GetPointData()->HasArray("RGBA"));
   EXPECT_STREQ(output->GetPointData()->GetScalars()->GetName(), "Silhouette");
-  const std::vector<float> line = Values(output);
+  const std::vector<float> line = values(output);
   for (int i = 0; i < 64; ++i)
   {
     // Row 25 crosses the disc (columns 11 to 49) and the step inside it.
@@ -117,12 +115,12 @@ TEST(DepthSilhouettes, AddsTheLineToTheInputsArrays)
 TEST(DepthSilhouettes, SlicesAreIndependent)
 {
   vtkNew<vtkDepthSilhouettes> filter;
-  filter->SetInputData(MakeImage(1));
+  filter->SetInputData(makeImage(1));
   filter->Update();
-  const std::vector<float> single = Values(filter->GetOutput());
-  filter->SetInputData(MakeImage(2));
+  const std::vector<float> single = values(filter->GetOutput());
+  filter->SetInputData(makeImage(2));
   filter->Update();
-  const std::vector<float> both = Values(filter->GetOutput());
+  const std::vector<float> both = values(filter->GetOutput());
   ASSERT_EQ(both.size(), 2 * single.size());
   EXPECT_TRUE(std::equal(single.begin(), single.end(), both.begin()));
   EXPECT_TRUE(std::equal(single.begin(), single.end(), both.begin() + single.size()));
@@ -131,33 +129,33 @@ TEST(DepthSilhouettes, SlicesAreIndependent)
 TEST(DepthSilhouettes, ThreadsDoNotMatter)
 {
   vtkNew<vtkDepthSilhouettes> filter;
-  filter->SetInputData(MakeImage(3));
+  filter->SetInputData(makeImage(3));
   filter->SetNumberOfThreads(1);
   filter->Update();
-  const std::vector<float> one = Values(filter->GetOutput());
+  const std::vector<float> one = values(filter->GetOutput());
   filter->SetNumberOfThreads(7);
   filter->Update();
-  EXPECT_EQ(Values(filter->GetOutput()), one);
+  EXPECT_EQ(values(filter->GetOutput()), one);
   filter->SetEnableSMP(true);
   filter->Update();
-  EXPECT_EQ(Values(filter->GetOutput()), one);
+  EXPECT_EQ(values(filter->GetOutput()), one);
 }
 
 TEST(DepthSilhouettes, TakesTheChosenArray)
 {
-  const auto image = MakeImage(1);
-  auto flat = AddArray<vtkDoubleArray>(image, "flat", 1);
+  const auto image = makeImage(1);
+  auto flat = addArray<vtkDoubleArray>(image, "flat", 1);
   vtkNew<vtkDepthSilhouettes> filter;
   filter->SetInputData(image);
   filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "flat");
   filter->Update();
-  EXPECT_EQ(Values(filter->GetOutput()), std::vector<float>(64 * 50, 0.0F));
+  EXPECT_EQ(values(filter->GetOutput()), std::vector<float>(64 * 50, 0.0F));
 }
 
 TEST(DepthSilhouettes, WithoutAChoiceTakesTheActiveScalarsBeforeZ)
 {
-  const auto image = MakeImage(1);
-  AddArray<vtkDoubleArray>(image, "flat", 1);
+  const auto image = makeImage(1);
+  addArray<vtkDoubleArray>(image, "flat", 1);
   image->GetPointData()->SetActiveScalars("flat");
   for (const char* choice : { static_cast<const char*>(nullptr), "" })
   {
@@ -168,51 +166,51 @@ TEST(DepthSilhouettes, WithoutAChoiceTakesTheActiveScalarsBeforeZ)
       filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, choice);
     }
     filter->Update();
-    EXPECT_EQ(Values(filter->GetOutput()), std::vector<float>(64 * 50, 0.0F));
+    EXPECT_EQ(values(filter->GetOutput()), std::vector<float>(64 * 50, 0.0F));
   }
 }
 
 TEST(DepthSilhouettes, Errors)
 {
-  const auto image = MakeImage(1);
-  AddArray<vtkFloatArray>(image, "normals", 3);
-  AddArray<vtkUnsignedCharArray>(image, "bytes", 1);
+  const auto image = makeImage(1);
+  addArray<vtkFloatArray>(image, "normals", 3);
+  addArray<vtkUnsignedCharArray>(image, "bytes", 1);
   vtkNew<vtkDepthSilhouettes> filter;
   filter->SetInputData(image);
   for (const char* name : { "normals", "bytes", "missing" })
   {
     filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, name);
-    EXPECT_NE(ErrorOf(filter).find(name), std::string::npos) << name;
+    EXPECT_NE(errorOf(filter).find(name), std::string::npos) << name;
     EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("Silhouette"));
   }
   filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Z");
   filter->SetThreshold(-1.0);
-  EXPECT_NE(ErrorOf(filter).find("Threshold"), std::string::npos);
+  EXPECT_NE(errorOf(filter).find("Threshold"), std::string::npos);
   filter->SetThreshold(1.0);
   filter->SetBackgroundDepth(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_NE(ErrorOf(filter).find("BackgroundDepth"), std::string::npos);
+  EXPECT_NE(errorOf(filter).find("BackgroundDepth"), std::string::npos);
 
   vtkNew<vtkImageData> empty;
   empty->SetDimensions(4, 4, 1);
   vtkNew<vtkDepthSilhouettes> without;
   without->SetInputData(empty);
-  EXPECT_NE(ErrorOf(without).find("no depth array"), std::string::npos);
+  EXPECT_NE(errorOf(without).find("no depth array"), std::string::npos);
 }
 
 TEST(ZBufferToDepth, ConvertsAndReportsWhatIsMissing)
 {
   vtkNew<vtkImageData> image;
   image->SetDimensions(3, 2, 1);
-  auto z = AddArray<vtkFloatArray>(image, "ImageScalars", 1);
+  auto z = addArray<vtkFloatArray>(image, "ImageScalars", 1);
   z->Fill(0.5);
   z->SetValue(4, 1.0F);
   vtkNew<vtkZBufferToDepth> filter;
   filter->SetInputData(image);
-  EXPECT_NE(ErrorOf(filter).find("scalars"), std::string::npos);
+  EXPECT_NE(errorOf(filter).find("scalars"), std::string::npos);
 
   image->GetPointData()->SetActiveScalars("ImageScalars");
   image->Modified();
-  EXPECT_NE(ErrorOf(filter).find("ProjectionMatrix"), std::string::npos);
+  EXPECT_NE(errorOf(filter).find("ProjectionMatrix"), std::string::npos);
 
   // Parallel projection from near = 1 to far = 3.
   vtkNew<vtkMatrix4x4> projection;

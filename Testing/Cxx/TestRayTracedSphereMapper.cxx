@@ -428,7 +428,7 @@ TEST(RayTracedSphereMapper, LayersDescribeTheFrame)
   WarningCatcher warnings(scene.mapper);
   scene.mapper->SetInputData(makeBalls({ { 0, 0, 0, -1 }, { 0, 0, 0, 1 } }));
   scene.window->Render();
-  EXPECT_EQ(warnings.Count(), 1) << "one sphere has a negative radius";
+  EXPECT_EQ(warnings.count(), 1) << "one sphere has a negative radius";
   const double distance = scene.renderer->GetActiveCamera()->GetDistance();
   const vtkIdType middle = 20 * 41 + 20;
   ASSERT_EQ(scene.mapper->GetLayers()->GetNumberOfPoints(), 41 * 41);
@@ -481,9 +481,9 @@ TEST(RayTracedSphereMapper, MistakesGiveOneMessageAndNoCrash)
   scene.mapper->SetRadiusArray("nothing");
   scene.window->Render();
   scene.window->Render();
-  ASSERT_EQ(errors.Count(), 1);
-  EXPECT_NE(errors.Text().find("nothing"), std::string::npos);
-  EXPECT_NE(errors.Text().find("radius"), std::string::npos) << "lists what there is";
+  ASSERT_EQ(errors.count(), 1);
+  EXPECT_NE(errors.text().find("nothing"), std::string::npos);
+  EXPECT_NE(errors.text().find("radius"), std::string::npos) << "lists what there is";
 
   scene.mapper->SetRadiusArray(nullptr);
   auto baked = makeBalls({ { 0, 0, 0, 1 } });
@@ -491,13 +491,13 @@ TEST(RayTracedSphereMapper, MistakesGiveOneMessageAndNoCrash)
   baked->GetPointData()->GetArray("AmbientOcclusionTexture")->SetComponent(0, 0, 7);
   scene.mapper->SetInputData(baked);
   const Picture picture = grab(scene.window);
-  ASSERT_EQ(warnings.Count(), 1);
-  EXPECT_NE(warnings.Text().find("AmbientOcclusionTexture"), std::string::npos);
+  ASSERT_EQ(warnings.count(), 1);
+  EXPECT_NE(warnings.text().find("AmbientOcclusionTexture"), std::string::npos);
   EXPECT_GT(picture.at(80, 60)[0], 200) << "drawn without occlusion";
 
   scene.mapper->SetInputData(vtkSmartPointer<vtkPolyData>::New());
   scene.window->Render();
-  EXPECT_EQ(errors.Count(), 1) << "nothing to draw is no mistake";
+  EXPECT_EQ(errors.count(), 1) << "nothing to draw is no mistake";
   EXPECT_EQ(scene.mapper->GetLayers()->GetNumberOfPoints(), 0);
 }
 

@@ -26,10 +26,9 @@ namespace Imf = OPENEXR_IMF_NAMESPACE;
 
 namespace
 {
-
 using Image = vtkSmartPointer<vtkImageData>;
 
-Image EmptyImage(int width, int height)
+Image emptyImage(int width, int height)
 {
   Image image = Image::New();
   image->SetDimensions(width, height, 1);
@@ -37,7 +36,7 @@ Image EmptyImage(int width, int height)
 }
 
 template <typename Array>
-vtkSmartPointer<Array> AddArray(vtkImageData* image, const char* name, int components)
+vtkSmartPointer<Array> addArray(vtkImageData* image, const char* name, int components)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
@@ -48,7 +47,7 @@ vtkSmartPointer<Array> AddArray(vtkImageData* image, const char* name, int compo
   return array;
 }
 
-int Write(vtkImageData* image, const std::string& fileName)
+int write(vtkImageData* image, const std::string& fileName)
 {
   vtkNew<vtkRenderedLayersWriter> writer;
   writer->SetInputDataObject(image);
@@ -56,7 +55,7 @@ int Write(vtkImageData* image, const std::string& fileName)
   return writer->Write();
 }
 
-std::string ErrorOfWriting(vtkImageData* image, const std::string& fileName)
+std::string errorOfWriting(vtkImageData* image, const std::string& fileName)
 {
   vtkNew<vtkRenderedLayersWriter> writer;
   Messages messages(writer);
@@ -64,13 +63,13 @@ std::string ErrorOfWriting(vtkImageData* image, const std::string& fileName)
   writer->SetFileName(fileName.c_str());
   EXPECT_EQ(writer->Write(), 0);
   EXPECT_NE(writer->GetErrorCode(), vtkErrorCode::NoError);
-  EXPECT_EQ(messages.Errors.size(), 1u);
-  return messages.Errors.empty() ? std::string() : messages.Errors.front();
+  EXPECT_EQ(messages.errors.size(), 1u);
+  return messages.errors.empty() ? std::string() : messages.errors.front();
 }
 
 /// A channel as OpenEXR reads it, the top row first.
 template <typename Pixel>
-std::vector<Pixel> ReadChannel(
+std::vector<Pixel> readChannel(
   const std::string& fileName, const char* name, Imf::PixelType memory, Imf::PixelType stored)
 {
   Imf::InputFile file(fileName.c_str());
@@ -90,17 +89,17 @@ std::vector<Pixel> ReadChannel(
   return pixels;
 }
 
-std::vector<float> ReadFloats(const std::string& file, const char* name)
+std::vector<float> readFloats(const std::string& file, const char* name)
 {
-  return ReadChannel<float>(file, name, Imf::FLOAT, Imf::FLOAT);
+  return readChannel<float>(file, name, Imf::FLOAT, Imf::FLOAT);
 }
 
-std::vector<float> ReadHalves(const std::string& file, const char* name)
+std::vector<float> readHalves(const std::string& file, const char* name)
 {
-  return ReadChannel<float>(file, name, Imf::FLOAT, Imf::HALF);
+  return readChannel<float>(file, name, Imf::FLOAT, Imf::HALF);
 }
 
-std::set<std::string> ChannelNames(const std::string& fileName)
+std::set<std::string> channelNames(const std::string& fileName)
 {
   Imf::InputFile file(fileName.c_str());
   std::set<std::string> names;
@@ -111,21 +110,20 @@ std::set<std::string> ChannelNames(const std::string& fileName)
   }
   return names;
 }
-
 }
 
 TEST(RenderedLayers, LayersHaveTheirNamesTypesValuesAndStandUpright)
 {
   TemporaryFolder folder;
-  const std::string file = folder.File("a.exr");
+  const std::string file = folder.file("a.exr");
   constexpr float infinity = std::numeric_limits<float>::infinity();
   constexpr float tiny = 1.0f / (1 << 30); // far below what HALF can hold
-  Image image = EmptyImage(2, 3);
-  auto depth = AddArray<vtkFloatArray>(image, "Z", 1);
-  auto occlusion = AddArray<vtkDoubleArray>(image, "AO", 1);
-  auto normal = AddArray<vtkFloatArray>(image, "N", 3);
-  auto id = AddArray<vtkTypeInt64Array>(image, "id", 1);
-  auto extra = AddArray<vtkFloatArray>(image, "velocity", 2);
+  Image image = emptyImage(2, 3);
+  auto depth = addArray<vtkFloatArray>(image, "Z", 1);
+  auto occlusion = addArray<vtkDoubleArray>(image, "AO", 1);
+  auto normal = addArray<vtkFloatArray>(image, "N", 3);
+  auto id = addArray<vtkTypeInt64Array>(image, "id", 1);
+  auto extra = addArray<vtkFloatArray>(image, "velocity", 2);
   for (int i = 0; i < 6; ++i)
   {
     depth->SetValue(i, i == 5 ? infinity : tiny * i);
@@ -134,18 +132,18 @@ TEST(RenderedLayers, LayersHaveTheirNamesTypesValuesAndStandUpright)
     id->SetValue(i, i == 5 ? -1 : 4294967290 + i);
     extra->SetTuple2(i, 10.0 * i, 20.0 * i);
   }
-  ASSERT_EQ(Write(image, file), 1);
+  ASSERT_EQ(write(image, file), 1);
 
-  EXPECT_EQ(ChannelNames(file),
+  EXPECT_EQ(channelNames(file),
     (std::set<std::string>{ "Z", "AO", "N.X", "N.Y", "N.Z", "id", "velocity.X", "velocity.Y" }));
   // VTK's last row (tuples 4 and 5) is the top one.
-  EXPECT_EQ(ReadFloats(file, "Z"),
+  EXPECT_EQ(readFloats(file, "Z"),
     (std::vector<float>{ 4 * tiny, infinity, 2 * tiny, 3 * tiny, 0.0f, tiny }));
   EXPECT_EQ(
-    ReadFloats(file, "AO"), (std::vector<float>{ 0.5f, 0.625f, 0.25f, 0.375f, 0.0f, 0.125f }));
-  EXPECT_EQ(ReadFloats(file, "N.Y"), (std::vector<float>{ -4, -5, -2, -3, 0, -1 }));
-  EXPECT_EQ(ReadFloats(file, "velocity.Y"), (std::vector<float>{ 80, 100, 40, 60, 0, 20 }));
-  EXPECT_EQ(ReadChannel<unsigned int>(file, "id", Imf::UINT, Imf::UINT),
+    readFloats(file, "AO"), (std::vector<float>{ 0.5f, 0.625f, 0.25f, 0.375f, 0.0f, 0.125f }));
+  EXPECT_EQ(readFloats(file, "N.Y"), (std::vector<float>{ -4, -5, -2, -3, 0, -1 }));
+  EXPECT_EQ(readFloats(file, "velocity.Y"), (std::vector<float>{ 80, 100, 40, 60, 0, 20 }));
+  EXPECT_EQ(readChannel<unsigned int>(file, "id", Imf::UINT, Imf::UINT),
     (std::vector<unsigned int>{
       4294967294u, 4294967295u, 4294967292u, 4294967293u, 4294967290u, 4294967291u }));
 }
@@ -153,17 +151,17 @@ TEST(RenderedLayers, LayersHaveTheirNamesTypesValuesAndStandUpright)
 TEST(RenderedLayers, ColorsAreLinearAndPremultiplied)
 {
   TemporaryFolder folder;
-  Image image = EmptyImage(4, 1);
-  auto color = AddArray<vtkUnsignedCharArray>(image, "RGBA", 4);
+  Image image = emptyImage(4, 1);
+  auto color = addArray<vtkUnsignedCharArray>(image, "RGBA", 4);
   color->SetTuple4(0, 255, 128, 0, 255);
   color->SetTuple4(1, 255, 128, 10, 51);
   color->SetTuple4(2, 255, 255, 255, 0);
   color->SetTuple4(3, 10, 11, 188, 255);
-  ASSERT_EQ(Write(image, folder.File("a.exr")), 1);
-  const auto red = ReadHalves(folder.File("a.exr"), "R");
-  const auto green = ReadHalves(folder.File("a.exr"), "G");
-  const auto blue = ReadHalves(folder.File("a.exr"), "B");
-  const auto alpha = ReadHalves(folder.File("a.exr"), "A");
+  ASSERT_EQ(write(image, folder.file("a.exr")), 1);
+  const auto red = readHalves(folder.file("a.exr"), "R");
+  const auto green = readHalves(folder.file("a.exr"), "G");
+  const auto blue = readHalves(folder.file("a.exr"), "B");
+  const auto alpha = readHalves(folder.file("a.exr"), "A");
   EXPECT_EQ(red[0], 1.0f);
   EXPECT_NEAR(green[0], 0.21586, 2e-4); // sRGB 128
   EXPECT_EQ(blue[0], 0.0f);
@@ -180,14 +178,14 @@ TEST(RenderedLayers, ColorsAreLinearAndPremultiplied)
 TEST(RenderedLayers, EveryOpaqueColorComesBack)
 {
   TemporaryFolder folder;
-  Image image = EmptyImage(256, 1);
-  auto color = AddArray<vtkUnsignedCharArray>(image, "RGBA", 4);
+  Image image = emptyImage(256, 1);
+  auto color = addArray<vtkUnsignedCharArray>(image, "RGBA", 4);
   for (int byte = 0; byte < 256; ++byte)
   {
     color->SetTuple4(byte, byte, byte, byte, 255);
   }
-  ASSERT_EQ(Write(image, folder.File("a.exr")), 1);
-  const auto red = ReadHalves(folder.File("a.exr"), "R");
+  ASSERT_EQ(write(image, folder.file("a.exr")), 1);
+  const auto red = readHalves(folder.file("a.exr"), "R");
   for (int byte = 0; byte < 256; ++byte)
   {
     const double linear = red[byte];
@@ -200,69 +198,69 @@ TEST(RenderedLayers, EveryOpaqueColorComesBack)
 TEST(RenderedLayers, OtherIntegersAreLeftOutWithAWarning)
 {
   TemporaryFolder folder;
-  Image image = EmptyImage(2, 2);
-  AddArray<vtkFloatArray>(image, "Z", 1);
-  AddArray<vtkIntArray>(image, "counts", 1);
+  Image image = emptyImage(2, 2);
+  addArray<vtkFloatArray>(image, "Z", 1);
+  addArray<vtkIntArray>(image, "counts", 1);
   vtkNew<vtkRenderedLayersWriter> writer;
   Messages messages(writer);
   writer->SetInputDataObject(image);
-  writer->SetFileName(folder.File("a.exr").c_str());
+  writer->SetFileName(folder.file("a.exr").c_str());
   EXPECT_EQ(writer->Write(), 1);
-  EXPECT_TRUE(OneMessage(messages.Warnings, "counts"));
-  EXPECT_EQ(ChannelNames(folder.File("a.exr")), std::set<std::string>{ "Z" });
+  EXPECT_TRUE(oneMessage(messages.warnings, "counts"));
+  EXPECT_EQ(channelNames(folder.file("a.exr")), std::set<std::string>{ "Z" });
 }
 
 TEST(RenderedLayers, WhatCannotBeWrittenIsAnError)
 {
   TemporaryFolder folder;
-  const std::string file = folder.File("a.exr");
-  EXPECT_HAS(ErrorOfWriting(EmptyImage(2, 2), file), "no point array");
+  const std::string file = folder.file("a.exr");
+  EXPECT_HAS(errorOfWriting(emptyImage(2, 2), file), "no point array");
 
-  Image counts = EmptyImage(2, 2);
-  AddArray<vtkIntArray>(counts, "counts", 1);
-  EXPECT_HAS(ErrorOfWriting(counts, file), "it has: counts");
+  Image counts = emptyImage(2, 2);
+  addArray<vtkIntArray>(counts, "counts", 1);
+  EXPECT_HAS(errorOfWriting(counts, file), "it has: counts");
 
   Image volume = Image::New();
   volume->SetDimensions(2, 2, 2);
-  AddArray<vtkFloatArray>(volume, "Z", 1);
-  EXPECT_HAS(ErrorOfWriting(volume, file), "2 x 2 x 2");
+  addArray<vtkFloatArray>(volume, "Z", 1);
+  EXPECT_HAS(errorOfWriting(volume, file), "2 x 2 x 2");
 
-  Image rgb = EmptyImage(2, 2);
-  AddArray<vtkUnsignedCharArray>(rgb, "RGBA", 3);
-  EXPECT_HAS(ErrorOfWriting(rgb, file), "\"RGBA\"");
+  Image rgb = emptyImage(2, 2);
+  addArray<vtkUnsignedCharArray>(rgb, "RGBA", 3);
+  EXPECT_HAS(errorOfWriting(rgb, file), "\"RGBA\"");
 
-  Image flatNormal = EmptyImage(2, 2);
-  AddArray<vtkFloatArray>(flatNormal, "N", 2);
-  EXPECT_HAS(ErrorOfWriting(flatNormal, file), "\"N\" has 2 components; 3");
+  Image flatNormal = emptyImage(2, 2);
+  addArray<vtkFloatArray>(flatNormal, "N", 2);
+  EXPECT_HAS(errorOfWriting(flatNormal, file), "\"N\" has 2 components; 3");
 
-  Image tensor = EmptyImage(2, 2);
-  AddArray<vtkFloatArray>(tensor, "stress", 9);
-  EXPECT_HAS(ErrorOfWriting(tensor, file), "\"stress\" has 9 components; 1 to 4");
+  Image tensor = emptyImage(2, 2);
+  addArray<vtkFloatArray>(tensor, "stress", 9);
+  EXPECT_HAS(errorOfWriting(tensor, file), "\"stress\" has 9 components; 1 to 4");
 
-  Image ids = EmptyImage(2, 2);
-  AddArray<vtkTypeInt64Array>(ids, "id", 1)->SetValue(0, 5000000000);
-  EXPECT_HAS(ErrorOfWriting(ids, file), "5000000000");
+  Image ids = emptyImage(2, 2);
+  addArray<vtkTypeInt64Array>(ids, "id", 1)->SetValue(0, 5000000000);
+  EXPECT_HAS(errorOfWriting(ids, file), "5000000000");
 
-  Image twice = EmptyImage(2, 2);
-  AddArray<vtkUnsignedCharArray>(twice, "RGBA", 4);
-  AddArray<vtkFloatArray>(twice, "R", 1);
-  EXPECT_HAS(ErrorOfWriting(twice, file), "\"R\"");
-  EXPECT_EQ(folder.Count(), 0u);
+  Image twice = emptyImage(2, 2);
+  addArray<vtkUnsignedCharArray>(twice, "RGBA", 4);
+  addArray<vtkFloatArray>(twice, "R", 1);
+  EXPECT_HAS(errorOfWriting(twice, file), "\"R\"");
+  EXPECT_EQ(folder.count(), 0u);
 
-  Image good = EmptyImage(2, 2);
-  AddArray<vtkFloatArray>(good, "Z", 1);
-  EXPECT_HAS(ErrorOfWriting(good, folder.File("none/a.exr")), "No such file or directory");
-  EXPECT_HAS(ErrorOfWriting(good, ""), "No file name");
+  Image good = emptyImage(2, 2);
+  addArray<vtkFloatArray>(good, "Z", 1);
+  EXPECT_HAS(errorOfWriting(good, folder.file("none/a.exr")), "No such file or directory");
+  EXPECT_HAS(errorOfWriting(good, ""), "No file name");
 }
 
 #ifndef _WIN32
 TEST(RenderedLayers, FullDiskLeavesThePreviousFileAndNoPartialOne)
 {
   TemporaryFolder folder;
-  Image image = EmptyImage(200, 200);
-  auto depth = AddArray<vtkFloatArray>(image, "Z", 1);
-  ASSERT_EQ(Write(image, folder.File("a.exr")), 1);
-  const Bytes before = ReadBytes(folder.File("a.exr"));
+  Image image = emptyImage(200, 200);
+  auto depth = addArray<vtkFloatArray>(image, "Z", 1);
+  ASSERT_EQ(write(image, folder.file("a.exr")), 1);
+  const Bytes before = readBytes(folder.file("a.exr"));
   std::mt19937 random(1);
   for (vtkIdType i = 0; i < depth->GetNumberOfValues(); ++i)
   {
@@ -270,9 +268,9 @@ TEST(RenderedLayers, FullDiskLeavesThePreviousFileAndNoPartialOne)
   }
   {
     FileSizeLimit full(20000);
-    EXPECT_HAS(ErrorOfWriting(image, folder.File("a.exr")), "File too large");
+    EXPECT_HAS(errorOfWriting(image, folder.file("a.exr")), "File too large");
   }
-  EXPECT_EQ(ReadBytes(folder.File("a.exr")), before);
-  EXPECT_EQ(folder.Count(), 1u);
+  EXPECT_EQ(readBytes(folder.file("a.exr")), before);
+  EXPECT_EQ(folder.count(), 1u);
 }
 #endif

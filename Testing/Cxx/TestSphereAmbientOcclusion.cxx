@@ -74,8 +74,8 @@ std::string errorOf(vtkSphereAmbientOcclusion* filter)
 {
   ErrorCatcher errors(filter);
   filter->Update();
-  EXPECT_LE(errors.Count(), 1);
-  return errors.Text();
+  EXPECT_LE(errors.count(), 1);
+  return errors.text();
 }
 
 TEST(SphereAmbientOcclusion, OutputFollowsTheDataContract)
@@ -196,8 +196,8 @@ TEST(SphereAmbientOcclusion, LeavesOutBadParticlesWithOneWarning)
   filter->SetInputData(data);
   WarningCatcher warnings(filter);
   EXPECT_EQ(errorOf(filter), "");
-  EXPECT_EQ(warnings.Count(), 1);
-  EXPECT_NE(warnings.Text().find("5 particles are left out"), std::string::npos) << warnings.Text();
+  EXPECT_EQ(warnings.count(), 1);
+  EXPECT_NE(warnings.text().find("5 particles are left out"), std::string::npos) << warnings.text();
   EXPECT_EQ(filter->GetNumberOfParticlesLeftOut(), 5);
   auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
   ASSERT_EQ(output->GetNumberOfPoints(), 27);

@@ -118,12 +118,12 @@ TEST(SweepEstimator, AgreesWithReferenceInAllFamilies)
          po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
   {
     SCOPED_TRACE(static_cast<int>(family));
-    const po::SyntheticSpheres made = po::MakeSyntheticSpheres(family, 150, 1);
+    const po::SyntheticSpheres made = po::makeSyntheticSpheres(family, 150, 1);
     std::vector<po::Sphere> spheres;
-    for (std::size_t i = 0; i < made.Radii.size(); ++i)
+    for (std::size_t i = 0; i < made.radii.size(); ++i)
     {
-      const auto& c = made.Centers[i];
-      spheres.push_back({ c[0], c[1], c[2], made.Radii[i] });
+      const auto& c = made.centers[i];
+      spheres.push_back({ c[0], c[1], c[2], made.radii[i] });
     }
     expectLikeReference(spheres, floatSettings(4, 49), 0.012);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef TestViews_h
-#define TestViews_h
+#ifndef po_TestViews_h
+#define po_TestViews_h
 
 // Views with known matrices for tests of traced frames.
 #include "FrameTracer.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef VTKErrors_h
-#define VTKErrors_h
+#ifndef po_VTKErrors_h
+#define po_VTKErrors_h
 
 #include "vtkCallbackCommand.h"
 #include "vtkNew.h"
@@ -14,31 +14,31 @@ class MessageCatcher
 {
 public:
   explicit MessageCatcher(vtkObject* object)
-    : Object(object)
+    : object_(object)
   {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void* text)
+    command_->SetClientData(this);
+    command_->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void* message)
       {
         auto* catcher = static_cast<MessageCatcher*>(self);
-        catcher->Messages += static_cast<const char*>(text);
-        ++catcher->Number;
+        catcher->messages_ += static_cast<const char*>(message);
+        ++catcher->number_;
       });
-    this->Tag = object->AddObserver(Event, this->Command);
+    tag_ = object->AddObserver(Event, command_);
   }
-  ~MessageCatcher() { this->Object->RemoveObserver(this->Tag); }
+  ~MessageCatcher() { object_->RemoveObserver(tag_); }
   MessageCatcher(const MessageCatcher&) = delete;
   MessageCatcher& operator=(const MessageCatcher&) = delete;
 
-  [[nodiscard]] int Count() const { return this->Number; }
-  [[nodiscard]] const std::string& Text() const { return this->Messages; }
+  [[nodiscard]] int count() const { return number_; }
+  [[nodiscard]] const std::string& text() const { return messages_; }
 
 private:
-  vtkObject* Object;
-  vtkNew<vtkCallbackCommand> Command;
-  unsigned long Tag = 0;
-  int Number = 0;
-  std::string Messages;
+  vtkObject* object_;
+  vtkNew<vtkCallbackCommand> command_;
+  unsigned long tag_ = 0;
+  int number_ = 0;
+  std::string messages_;
 };
 
 using ErrorCatcher = MessageCatcher<vtkCommand::ErrorEvent>;
