@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOcclusionTextureReader.h"
 
-#include "OcclusionEncoding.h"
+#include "Gamma2.h"
 #include "OcclusionParameters.h"
 #include "OcclusionTextureFile.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOcclusionTextureWriter.h"
 
-#include "OcclusionEncoding.h"
+#include "Gamma2.h"
 #include "OcclusionParameters.h"
 #include "OcclusionTextureFile.h"
 
@@ -101,7 +101,8 @@ TextureFunction decodeTextures(vtkFieldData* fields, double maximum)
   {
     const unsigned char* first = table->GetPointer(row * table->GetNumberOfComponents());
     std::transform(first, first + table->GetNumberOfComponents(), texels,
-      [maximum](unsigned char byte) { return po::decodeGamma2(byte, maximum); });
+      [maximum](unsigned char byte)
+      { return static_cast<float>(po::decodeGamma2(byte, maximum)); });
   };
 }
 

@@ -50,22 +50,6 @@ std::int32_t TextureTable::insert(const float* texture)
   return row;
 }
 
-std::uint8_t encodeGamma2(double value, double maximum)
-{
-  if (!(maximum > 0))
-  {
-    return 0;
-  }
-  const double displayed = std::sqrt(std::clamp(value / maximum, 0.0, 1.0));
-  return static_cast<std::uint8_t>(std::lround(255 * displayed));
-}
-
-double decodeGamma2(std::uint8_t byte, double maximum)
-{
-  const double displayed = byte / 255.0;
-  return maximum * displayed * displayed;
-}
-
 namespace
 {
 /// Bytes of all rows, in place of equal ones only the first; `rowOf` follows.

@@ -3,6 +3,7 @@
 #define po_TextureTable_h
 
 #include "BakeSettings.h"
+#include "Gamma2.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -64,12 +65,6 @@ struct EncodedTable
   std::vector<std::uint8_t> bytes;
   std::vector<float> floats;
 };
-
-/// round(255 sqrt(value / maximum)), 0 where the maximum is 0.
-[[nodiscard]] std::uint8_t encodeGamma2(double value, double maximum);
-
-/// maximum (byte / 255)^2: the inverse of encodeGamma2 to half a step.
-[[nodiscard]] double decodeGamma2(std::uint8_t byte, double maximum);
 
 /// Encodes a table and gives up its values. Textures that become equal by rounding are merged.
 ///
