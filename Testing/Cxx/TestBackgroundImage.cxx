@@ -33,25 +33,28 @@ namespace
 using Channels = std::map<std::string, std::vector<float>>;
 
 template <typename Pixel>
-struct Converted
+class Converted
 {
+public:
   explicit Converted(const Channels& channels)
   {
     for (const auto& [name, values] : channels)
     {
-      this->Pixels[name].assign(values.begin(), values.end());
+      pixels_[name].assign(values.begin(), values.end());
     }
   }
-  Imf::FrameBuffer Frame(Imf::PixelType type, const Box2i& window) const
+  Imf::FrameBuffer frame(Imf::PixelType type, const Box2i& window) const
   {
     Imf::FrameBuffer frame;
-    for (const auto& [name, pixels] : this->Pixels)
+    for (const auto& [name, pixels] : pixels_)
     {
       frame.insert(name, Imf::Slice::Make(type, pixels.data(), window));
     }
     return frame;
   }
-  std::map<std::string, std::vector<Pixel>> Pixels;
+
+private:
+  std::map<std::string, std::vector<Pixel>> pixels_;
 };
 
 void addChannels(Imf::Header& header, const Channels& channels, Imf::PixelType type)
@@ -72,12 +75,12 @@ void writeAs(
   if (header.hasTileDescription())
   {
     Imf::TiledOutputFile file(fileName.c_str(), header);
-    file.setFrameBuffer(converted.Frame(type, window));
+    file.setFrameBuffer(converted.frame(type, window));
     file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
     return;
   }
   Imf::OutputFile file(fileName.c_str(), header);
-  file.setFrameBuffer(converted.Frame(type, window));
+  file.setFrameBuffer(converted.frame(type, window));
   file.writePixels(window.max.y - window.min.y + 1);
 }
 
@@ -212,7 +215,7 @@ TEST(BackgroundImage, SecondPartIsFound)
     {
       const Converted<float> converted(number ? light : two);
       Imf::OutputPart part(file, number);
-      part.setFrameBuffer(converted.Frame(Imf::FLOAT, headers[number].dataWindow()));
+      part.setFrameBuffer(converted.frame(Imf::FLOAT, headers[number].dataWindow()));
       part.writePixels(2);
     }
   }

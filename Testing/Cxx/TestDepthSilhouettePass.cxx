@@ -75,24 +75,24 @@ void fillScene(vtkRenderer* renderer)
 
 struct Scene
 {
-  vtkNew<vtkRenderWindow> Window;
-  vtkNew<vtkRenderer> Renderer;
-  vtkNew<vtkRenderStepsPass> Steps;
-  vtkNew<vtkDepthSilhouettePass> Pass;
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderStepsPass> steps;
+  vtkNew<vtkDepthSilhouettePass> pass;
 
   explicit Scene(int multiSamples = 0)
   {
-    this->Window->SetOffScreenRendering(1);
-    this->Window->SetMultiSamples(multiSamples);
-    this->Window->SetSize(Width, Height);
-    this->Window->AddRenderer(this->Renderer);
-    this->Renderer->SetBackground(0.1, 0.2, 0.4);
-    fillScene(this->Renderer);
-    this->Pass->SetDelegatePass(this->Steps);
-    this->Pass->SetColor(1.0, 0.0, 1.0); // nothing in the scene has it
-    this->Renderer->SetPass(this->Pass);
-    this->Renderer->ResetCamera();
-    this->Renderer->GetActiveCamera()->Azimuth(12.0);
+    window->SetOffScreenRendering(1);
+    window->SetMultiSamples(multiSamples);
+    window->SetSize(Width, Height);
+    window->AddRenderer(renderer);
+    renderer->SetBackground(0.1, 0.2, 0.4);
+    fillScene(renderer);
+    pass->SetDelegatePass(steps);
+    pass->SetColor(1.0, 0.0, 1.0); // nothing in the scene has it
+    renderer->SetPass(pass);
+    renderer->ResetCamera();
+    renderer->GetActiveCamera()->Azimuth(12.0);
   }
 };
 
@@ -181,8 +181,8 @@ double margin(const po::DepthImage<float>& image, const po::EdgeRule& rule, int 
 /// depth. Only pixels that close to the threshold may differ, and they must be rare.
 void expectAgreement(Scene& scene, vtkRenderer* renderer, vtkDepthSilhouettePass* pass)
 {
-  const auto rgb = pixels(scene.Window, renderer);
-  const auto depth = depthOf(scene.Window, renderer);
+  const auto rgb = pixels(scene.window, renderer);
+  const auto depth = depthOf(scene.window, renderer);
   const auto expected = filterLines(depth, pass);
   int size[3];
   depth->GetDimensions(size);
@@ -222,9 +222,9 @@ void expectAgreementForAllParameters(Scene& scene)
     {
       SCOPED_TRACE(
         testing::Message() << "Threshold " << threshold << ", BackgroundDepth " << background);
-      scene.Pass->SetThreshold(threshold);
-      scene.Pass->SetBackgroundDepth(background);
-      expectAgreement(scene, scene.Renderer, scene.Pass);
+      scene.pass->SetThreshold(threshold);
+      scene.pass->SetBackgroundDepth(background);
+      expectAgreement(scene, scene.renderer, scene.pass);
     }
   }
 }
@@ -239,26 +239,26 @@ TEST(DepthSilhouettePass, AgreesWithTheFilterInPerspective)
 TEST(DepthSilhouettePass, AgreesWithTheFilterInParallelProjection)
 {
   Scene scene;
-  scene.Renderer->GetActiveCamera()->ParallelProjectionOn();
+  scene.renderer->GetActiveCamera()->ParallelProjectionOn();
   expectAgreementForAllParameters(scene);
 }
 
 TEST(DepthSilhouettePass, AgreesWithTheFilterOffCentreAndClose)
 {
   Scene scene;
-  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  vtkCamera* camera = scene.renderer->GetActiveCamera();
   camera->SetWindowCenter(0.3, -0.2);
   camera->Dolly(1.8);
   camera->SetViewAngle(70.0);
-  scene.Renderer->ResetCameraClippingRange();
-  expectAgreement(scene, scene.Renderer, scene.Pass);
+  scene.renderer->ResetCameraClippingRange();
+  expectAgreement(scene, scene.renderer, scene.pass);
 }
 
 TEST(DepthSilhouettePass, AgreesWithTheFilterOnAMultisampledWindow)
 {
   Scene scene(8);
-  scene.Window->Render();
-  if (scene.Window->GetMultiSamples() < 2)
+  scene.window->Render();
+  if (scene.window->GetMultiSamples() < 2)
   {
     GTEST_SKIP() << "this OpenGL has no multisampling";
   }
@@ -268,8 +268,8 @@ TEST(DepthSilhouettePass, AgreesWithTheFilterOnAMultisampledWindow)
 TEST(DepthSilhouettePass, AgreesWithTheFilterWithAStencilBuffer)
 {
   Scene scene;
-  scene.Window->SetStencilCapable(1);
-  expectAgreement(scene, scene.Renderer, scene.Pass);
+  scene.window->SetStencilCapable(1);
+  expectAgreement(scene, scene.renderer, scene.pass);
 }
 
 TEST(DepthSilhouettePass, EachViewportHasItsOwnLines)
@@ -282,40 +282,40 @@ TEST(DepthSilhouettePass, EachViewportHasItsOwnLines)
   pass->SetDelegatePass(steps);
   pass->SetColor(1.0, 0.0, 1.0);
   second->SetPass(pass);
-  scene.Window->AddRenderer(second);
-  scene.Renderer->SetViewport(0.0, 0.0, 0.45, 1.0);
+  scene.window->AddRenderer(second);
+  scene.renderer->SetViewport(0.0, 0.0, 0.45, 1.0);
   second->SetViewport(0.45, 0.2, 1.0, 0.9);
-  scene.Renderer->ResetCamera();
+  scene.renderer->ResetCamera();
   second->ResetCamera();
   second->GetActiveCamera()->Elevation(30.0);
   second->ResetCameraClippingRange();
-  expectAgreement(scene, scene.Renderer, scene.Pass);
+  expectAgreement(scene, scene.renderer, scene.pass);
   expectAgreement(scene, second, pass);
 }
 
 TEST(DepthSilhouettePass, LinesContinueAcrossTiles)
 {
   Scene scene;
-  scene.Window->SetSize(320, 240);
+  scene.window->SetSize(320, 240);
   // The cube's lower side and its left one lie on the seams between the tiles.
   vtkNew<vtkCubeSource> cube;
   cube->SetBounds(0.0, 0.4, 0.0, 0.5, 1.0, 1.5);
-  addProp(scene.Renderer, cube, 0.6);
-  vtkCamera* camera = scene.Renderer->GetActiveCamera();
+  addProp(scene.renderer, cube, 0.6);
+  vtkCamera* camera = scene.renderer->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetFocalPoint(0.0, 0.0, 0.0);
   camera->SetPosition(0.0, 0.0, 8.0);
   camera->SetParallelScale(1.5);
-  scene.Renderer->ResetCameraClippingRange();
-  const auto whole = pixels(scene.Window, scene.Renderer);
+  scene.renderer->ResetCameraClippingRange();
+  const auto whole = pixels(scene.window, scene.renderer);
 
-  scene.Window->SetSize(160, 120);
-  scene.Window->Render();
+  scene.window->SetSize(160, 120);
+  scene.window->Render();
   // The tiles' matrices round differently, so that a surface may gain or lose a pixel at its edge;
   // the two sides of the cube have more than 30 pixels each.
-  EXPECT_LE(differentLines(whole, tiledPixels(scene.Window, 2)), 8);
-  scene.Pass->TileMarginsOff();
-  EXPECT_GE(differentLines(whole, tiledPixels(scene.Window, 2)), 30);
+  EXPECT_LE(differentLines(whole, tiledPixels(scene.window, 2)), 8);
+  scene.pass->TileMarginsOff();
+  EXPECT_GE(differentLines(whole, tiledPixels(scene.window, 2)), 30);
 }
 
 TEST(DepthSilhouettePass, ChangesNothingButTheLine)
@@ -323,11 +323,11 @@ TEST(DepthSilhouettePass, ChangesNothingButTheLine)
   for (const int samples : { 0, 8 })
   {
     Scene scene(samples);
-    const auto with = pixels(scene.Window, scene.Renderer);
-    const auto depth = depthOf(scene.Window, scene.Renderer);
-    scene.Pass->LineVisibilityOff();
-    const auto without = pixels(scene.Window, scene.Renderer);
-    const auto depthWithout = depthOf(scene.Window, scene.Renderer);
+    const auto with = pixels(scene.window, scene.renderer);
+    const auto depth = depthOf(scene.window, scene.renderer);
+    scene.pass->LineVisibilityOff();
+    const auto without = pixels(scene.window, scene.renderer);
+    const auto depthWithout = depthOf(scene.window, scene.renderer);
     ASSERT_EQ(with.size(), without.size());
     for (std::size_t pixel = 0; pixel < with.size() / 3; ++pixel)
     {
@@ -339,24 +339,24 @@ TEST(DepthSilhouettePass, ChangesNothingButTheLine)
       EXPECT_EQ(depth->GetPointData()->GetScalars()->GetTuple1(pixel),
         depthWithout->GetPointData()->GetScalars()->GetTuple1(pixel));
     }
-    scene.Renderer->SetPass(nullptr);
-    EXPECT_EQ(pixels(scene.Window, scene.Renderer), without);
+    scene.renderer->SetPass(nullptr);
+    EXPECT_EQ(pixels(scene.window, scene.renderer), without);
   }
 }
 
 TEST(DepthSilhouettePass, SurvivesResizeReleaseAndEmptyScenes)
 {
   Scene scene;
-  expectAgreement(scene, scene.Renderer, scene.Pass);
-  scene.Window->SetSize(150, 200);
-  expectAgreement(scene, scene.Renderer, scene.Pass);
-  scene.Pass->ReleaseGraphicsResources(scene.Window);
-  expectAgreement(scene, scene.Renderer, scene.Pass);
-  scene.Window->Finalize();
-  scene.Window->SetSize(Width, Height);
-  expectAgreement(scene, scene.Renderer, scene.Pass);
-  scene.Renderer->RemoveAllViewProps();
-  const auto rgb = pixels(scene.Window, scene.Renderer);
+  expectAgreement(scene, scene.renderer, scene.pass);
+  scene.window->SetSize(150, 200);
+  expectAgreement(scene, scene.renderer, scene.pass);
+  scene.pass->ReleaseGraphicsResources(scene.window);
+  expectAgreement(scene, scene.renderer, scene.pass);
+  scene.window->Finalize();
+  scene.window->SetSize(Width, Height);
+  expectAgreement(scene, scene.renderer, scene.pass);
+  scene.renderer->RemoveAllViewProps();
+  const auto rgb = pixels(scene.window, scene.renderer);
   for (std::size_t pixel = 0; pixel < rgb.size() / 3; ++pixel)
   {
     EXPECT_FALSE(isLine(rgb, pixel));
@@ -366,15 +366,15 @@ TEST(DepthSilhouettePass, SurvivesResizeReleaseAndEmptyScenes)
 TEST(DepthSilhouettePass, OpacityBlends)
 {
   Scene scene;
-  scene.Pass->SetColor(0.0, 0.0, 0.0);
-  scene.Pass->SetOpacity(0.0);
-  const auto clear = pixels(scene.Window, scene.Renderer);
-  scene.Pass->LineVisibilityOff();
-  EXPECT_EQ(pixels(scene.Window, scene.Renderer), clear);
-  scene.Pass->LineVisibilityOn();
-  scene.Pass->SetOpacity(0.5);
-  const auto half = pixels(scene.Window, scene.Renderer);
-  const auto lines = filterLines(depthOf(scene.Window, scene.Renderer), scene.Pass);
+  scene.pass->SetColor(0.0, 0.0, 0.0);
+  scene.pass->SetOpacity(0.0);
+  const auto clear = pixels(scene.window, scene.renderer);
+  scene.pass->LineVisibilityOff();
+  EXPECT_EQ(pixels(scene.window, scene.renderer), clear);
+  scene.pass->LineVisibilityOn();
+  scene.pass->SetOpacity(0.5);
+  const auto half = pixels(scene.window, scene.renderer);
+  const auto lines = filterLines(depthOf(scene.window, scene.renderer), scene.pass);
   int wrong = 0;
   for (std::size_t value = 0; value < half.size(); ++value)
   {
@@ -387,24 +387,24 @@ TEST(DepthSilhouettePass, OpacityBlends)
 TEST(DepthSilhouettePass, WrongParametersAreReportedAndDrawNoLines)
 {
   Scene scene;
-  scene.Pass->LineVisibilityOff();
-  const auto without = pixels(scene.Window, scene.Renderer);
-  scene.Pass->LineVisibilityOn();
+  scene.pass->LineVisibilityOff();
+  const auto without = pixels(scene.window, scene.renderer);
+  scene.pass->LineVisibilityOn();
   std::string errors;
   vtkNew<vtkCallbackCommand> catcher;
   catcher->SetClientData(&errors);
   catcher->SetCallback([](vtkObject*, unsigned long, void* data, void* text)
     { *static_cast<std::string*>(data) = static_cast<const char*>(text); });
-  scene.Pass->AddObserver(vtkCommand::ErrorEvent, catcher);
+  scene.pass->AddObserver(vtkCommand::ErrorEvent, catcher);
   for (const double wrong : { -1.0, std::numeric_limits<double>::quiet_NaN() })
   {
-    scene.Pass->SetThreshold(wrong);
-    EXPECT_EQ(pixels(scene.Window, scene.Renderer), without);
+    scene.pass->SetThreshold(wrong);
+    EXPECT_EQ(pixels(scene.window, scene.renderer), without);
     EXPECT_NE(errors.find("Threshold"), std::string::npos);
-    scene.Pass->SetThreshold(0.0);
-    scene.Pass->SetBackgroundDepth(wrong);
-    EXPECT_EQ(pixels(scene.Window, scene.Renderer), without);
+    scene.pass->SetThreshold(0.0);
+    scene.pass->SetBackgroundDepth(wrong);
+    EXPECT_EQ(pixels(scene.window, scene.renderer), without);
     EXPECT_NE(errors.find("BackgroundDepth"), std::string::npos);
-    scene.Pass->SetBackgroundDepth(0.0);
+    scene.pass->SetBackgroundDepth(0.0);
   }
 }

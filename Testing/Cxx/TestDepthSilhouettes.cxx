@@ -30,9 +30,9 @@ public:
   static ErrorCatcher* New() { return new ErrorCatcher; }
   void Execute(vtkObject*, unsigned long, void* text) override
   {
-    this->Text += static_cast<const char*>(text);
+    messages += static_cast<const char*>(text);
   }
-  std::string Text;
+  std::string messages;
 };
 
 template <typename Array>
@@ -86,7 +86,7 @@ std::string errorOf(vtkAlgorithm* filter)
   filter->AddObserver(vtkCommand::ErrorEvent, own);
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, executive);
   filter->Update();
-  return own->Text;
+  return own->messages;
 }
 }
 

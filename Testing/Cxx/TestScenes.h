@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef TestScenes_h
-#define TestScenes_h
+#ifndef po_TestScenes_h
+#define po_TestScenes_h
 
 // Small scenes of spheres, and short ways to bake them.
 

@@ -209,14 +209,14 @@ TEST(SphereAmbientOcclusion, LeavesOutBadParticlesWithOneWarning)
 
 struct BadInput
 {
-  const char* Name;
-  void (*Spoil)(vtkSphereAmbientOcclusion*, vtkPolyData*);
-  const char* Says;
+  const char* name;
+  void (*spoil)(vtkSphereAmbientOcclusion*, vtkPolyData*);
+  const char* says;
 };
 
 void PrintTo(const BadInput& bad, std::ostream* os)
 {
-  *os << bad.Name;
+  *os << bad.name;
 }
 
 class SphereAmbientOcclusionErrors : public testing::TestWithParam<BadInput>
@@ -228,9 +228,9 @@ TEST_P(SphereAmbientOcclusionErrors, NamesWhatIsWrong)
   vtkNew<vtkSphereAmbientOcclusion> filter;
   const auto data = lattice(2);
   filter->SetInputData(data);
-  GetParam().Spoil(filter, data);
+  GetParam().spoil(filter, data);
   const std::string error = errorOf(filter);
-  EXPECT_NE(error.find(GetParam().Says), std::string::npos) << "the message was: " << error;
+  EXPECT_NE(error.find(GetParam().says), std::string::npos) << "the message was: " << error;
   EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutput())->GetNumberOfPoints(), 0);
 }
 
@@ -295,7 +295,7 @@ const BadInput BadInputs[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, SphereAmbientOcclusionErrors, testing::ValuesIn(BadInputs),
-  [](const auto& info) { return info.param.Name; });
+  [](const auto& info) { return info.param.name; });
 
 TEST(SphereAmbientOcclusion, RefusesWhatDoesNotFitIntoMemory)
 {
@@ -327,8 +327,8 @@ TEST(SphereAmbientOcclusion, AbortsWithinASecondAndLeavesNoHalfBake)
   const auto start = std::chrono::steady_clock::now();
   struct State
   {
-    double Progress = 0;
-    int Calls = 0;
+    double progress = 0;
+    int calls = 0;
   } state;
   vtkNew<vtkCallbackCommand> command;
   command->SetClientData(&state);
@@ -337,9 +337,9 @@ TEST(SphereAmbientOcclusion, AbortsWithinASecondAndLeavesNoHalfBake)
     {
       auto* seen = static_cast<State*>(client);
       auto* algorithm = vtkAlgorithm::SafeDownCast(caller);
-      EXPECT_GE(algorithm->GetProgress(), seen->Progress);
-      seen->Progress = algorithm->GetProgress();
-      if (++seen->Calls == 4)
+      EXPECT_GE(algorithm->GetProgress(), seen->progress);
+      seen->progress = algorithm->GetProgress();
+      if (++seen->calls == 4)
       {
         algorithm->SetAbortExecute(1);
       }
@@ -347,7 +347,7 @@ TEST(SphereAmbientOcclusion, AbortsWithinASecondAndLeavesNoHalfBake)
   filter->AddObserver(vtkCommand::ProgressEvent, command);
   EXPECT_EQ(errorOf(filter), "");
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_GE(state.Calls, 4);
+  EXPECT_GE(state.calls, 4);
   EXPECT_LT(seconds.count(), 1.5);
   auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
   EXPECT_FALSE(output->GetPointData()->HasArray("AmbientOcclusion"));
