@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakedData.h"
 
+#include "Blocks.h"
+
 #include "vtkAppendPolyData.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"
@@ -18,22 +18,13 @@ namespace po
 {
 namespace
 {
-/// Points and point data without cells, which would only cost memory when blocks are appended.
-vtkSmartPointer<vtkPolyData> withoutCells(vtkPolyData* block)
-{
-  auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(block->GetPoints());
-  points->GetPointData()->ShallowCopy(block->GetPointData());
-  return points;
-}
-
 vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPolyData*>& blocks)
 {
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   for (vtkPolyData* block : blocks)
   {
-    append->AddInputData(withoutCells(block));
+    append->AddInputData(withoutCells(*block));
   }
   append->Update();
   return append->GetOutput();
@@ -141,25 +132,12 @@ void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offs
 std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
 {
   std::vector<vtkPolyData*> blocks;
-  const auto add = [&](vtkDataObject* leaf)
+  for (vtkDataSet* block : blocksWithPoints(data))
   {
-    auto* block = vtkPolyData::SafeDownCast(leaf);
-    if (block && block->GetNumberOfPoints() > 0)
+    if (auto* particles = vtkPolyData::SafeDownCast(block))
     {
-      blocks.push_back(block);
+      blocks.push_back(particles);
     }
-  };
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    auto leaves = vtk::TakeSmartPointer(composite->NewIterator());
-    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-    {
-      add(leaves->GetCurrentDataObject());
-    }
-  }
-  else
-  {
-    add(data);
   }
   return blocks;
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakedTextures.h"
 
+#include "Blocks.h"
+#include "Gamma2.h"
 #include "OcclusionParameters.h"
-#include "TextureTable.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkDataArrayRange.h"
@@ -174,14 +175,6 @@ OcclusionTextures makeTextures(const BakedTextures& baked, const TableFormat& fo
     ? OcclusionTextures(
         format.resolution, static_cast<const std::uint8_t*>(texels), format.maximum, rows, means)
     : OcclusionTextures(format.resolution, static_cast<const float*>(texels), rows, means);
-}
-
-vtkSmartPointer<vtkPolyData> withoutCells(vtkPointSet& block)
-{
-  auto points = vtkSmartPointer<vtkPolyData>::New();
-  points->SetPoints(block.GetPoints());
-  points->GetPointData()->ShallowCopy(block.GetPointData());
-  return points;
 }
 
 /// One block's part of a merged table.

@@ -35,11 +35,6 @@ Vec3d pointAt(vtkPointSet& points, std::size_t i)
   return p;
 }
 
-bool isFinite(Vec3d p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 bool isDiameter(std::string name)
 {
   std::transform(name.begin(), name.end(), name.begin(),

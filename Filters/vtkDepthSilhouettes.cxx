@@ -14,7 +14,7 @@
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <cmath>
+#include <string>
 #include <vector>
 
 vtkStandardNewMacro(vtkDepthSilhouettes);
@@ -89,19 +89,12 @@ vtkDepthSilhouettes::~vtkDepthSilhouettes() = default;
 
 bool vtkDepthSilhouettes::CheckParameters()
 {
-  if (!(this->Threshold >= 0.0) || !std::isfinite(this->Threshold))
+  const std::string fault = po::faultOf({ this->Threshold, this->BackgroundDepth });
+  if (!fault.empty())
   {
-    vtkErrorMacro("Threshold is " << this->Threshold
-                                  << "; it must be a length >= 0 in world units (0: automatic).");
-    return false;
+    vtkErrorMacro(<< fault);
   }
-  if (!(this->BackgroundDepth >= 0.0) || !std::isfinite(this->BackgroundDepth))
-  {
-    vtkErrorMacro("BackgroundDepth is "
-      << this->BackgroundDepth << "; it must be a depth >= 0 in world units (0: automatic).");
-    return false;
-  }
-  return true;
+  return fault.empty();
 }
 
 vtkDataArray* vtkDepthSilhouettes::FindDepth(

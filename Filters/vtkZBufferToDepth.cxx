@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkZBufferToDepth.h"
 
-#include "EyeDistance.h"
+#include "Projection.h"
 
 #include "vtkDataArray.h"
 #include "vtkFloatArray.h"
@@ -15,25 +15,11 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 vtkStandardNewMacro(vtkZBufferToDepth);
 
 namespace
 {
-std::optional<po::WindowToEye> invert(vtkMatrix4x4* projection)
-{
-  const double determinant = projection ? projection->Determinant() : 0.0;
-  if (!std::isfinite(determinant) || determinant == 0.0)
-  {
-    return std::nullopt;
-  }
-  po::Matrix4 inverse;
-  vtkMatrix4x4::Invert(projection->GetData(), inverse.data());
-  return po::makeWindowToEye(inverse);
-}
-
 /// `zBuffer` and `depth` are row-major images of `width` x `height` pixels.
 void convert(const po::WindowToEye& windowToEye, vtkDataArray* zBuffer, int width, int height,
   vtkFloatArray* depth)
@@ -107,7 +93,7 @@ int vtkZBufferToDepth::RequestData(
                   "of values in [0, 1] is needed.");
     return 0;
   }
-  const auto windowToEye = invert(this->ProjectionMatrix);
+  const auto windowToEye = po::windowToEyeOf(this->ProjectionMatrix);
   if (!windowToEye)
   {
     vtkErrorMacro("ProjectionMatrix is not set or singular: set the projection of the camera that "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BackgroundIrradiance.h"
 
+#include "Constants.h"
 #include "TexelMap.h"
 
 #include <tbb/parallel_for.h>
@@ -12,8 +13,6 @@ namespace po
 {
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
-
 // Cells of the sky and points of the map, in latitude and longitude. Irradiance is smooth: nearly
 // all of it lies in spherical harmonics up to degree 2 (Ramamoorthi and Hanrahan 2001).
 constexpr int CellRows = 48;

@@ -2,16 +2,13 @@
 #ifndef po_Camera_h
 #define po_Camera_h
 
+#include "Matrix4.h"
 #include "Vec3.h"
 
-#include <array>
 #include <optional>
 
 namespace po
 {
-/// 4 x 4 matrix, row-major; it acts on column vectors.
-using Matrix4 = std::array<double, 16>;
-
 [[nodiscard]] Matrix4 multiply(const Matrix4& a, const Matrix4& b);
 
 /// a (p, 1) without its fourth component.

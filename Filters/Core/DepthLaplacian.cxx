@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 
 namespace po
 {
@@ -17,6 +18,27 @@ double depthAt(const DepthImage<T>& image, int i, int j, double background)
   const double depth = image.depth[static_cast<std::size_t>(row) * image.width + column];
   return std::isfinite(depth) ? depth : background;
 }
+
+bool isLength(double value)
+{
+  return value >= 0.0 && std::isfinite(value);
+}
+}
+
+std::string faultOf(const SilhouetteParameters& parameters)
+{
+  std::ostringstream fault;
+  if (!isLength(parameters.threshold))
+  {
+    fault << "Threshold is " << parameters.threshold
+          << "; it must be a length >= 0 in world units (0: automatic).";
+  }
+  else if (!isLength(parameters.backgroundDepth))
+  {
+    fault << "BackgroundDepth is " << parameters.backgroundDepth
+          << "; it must be a depth >= 0 in world units (0: automatic).";
+  }
+  return fault.str();
 }
 
 template <typename T>

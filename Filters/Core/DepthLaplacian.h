@@ -3,6 +3,7 @@
 #define po_DepthLaplacian_h
 
 #include <optional>
+#include <string>
 
 /// Silhouettes from a depth image.
 ///
@@ -38,6 +39,9 @@ struct SilhouetteParameters
   /// World units, >= 0; 0 = automatic, just behind the farthest geometry.
   double backgroundDepth = 0.0;
 };
+
+/// Says which parameter is out of its range; empty if none is.
+[[nodiscard]] std::string faultOf(const SilhouetteParameters& parameters);
 
 /// What SilhouetteParameters come to in one image, in world units.
 struct EdgeRule

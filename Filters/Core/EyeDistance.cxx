@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EyeDistance.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 

@@ -2,14 +2,11 @@
 #ifndef po_EyeDistance_h
 #define po_EyeDistance_h
 
-#include <array>
+#include "Matrix4.h"
 
 /// From OpenGL's z-buffer to distance in world units.
 namespace po
 {
-/// Row-major 4x4 matrix, applied to column vectors.
-using Matrix4 = std::array<double, 16>;
-
 /// Takes (x, y, 1 - z, 1) to homogeneous eye coordinates: x and y in [-1, 1] across the viewport,
 /// z in [0, 1] as the z-buffer has it.
 struct WindowToEye

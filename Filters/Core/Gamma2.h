@@ -13,10 +13,10 @@ namespace po
 /// Below, maximum / 255^2 would leave the range of normal floats (1.2e-38) and not round-trip.
 inline constexpr double SmallestGamma2Maximum = 1e-32;
 
-/// round(255 sqrt(value / maximum)), 0 where the maximum is 0.
+/// round(255 sqrt(value / maximum)), 0 where the maximum is 0 or the value is NaN.
 [[nodiscard]] inline std::uint8_t encodeGamma2(double value, double maximum)
 {
-  const double share = maximum > 0 ? std::clamp(value / maximum, 0.0, 1.0) : 0.0;
+  const double share = maximum > 0 ? std::min(1.0, std::max(0.0, value / maximum)) : 0.0;
   return static_cast<std::uint8_t>(std::lround(255 * std::sqrt(share)));
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OcclusionTextures.h"
 
+#include "Gamma2.h"
 #include "TexelMap.h"
-#include "TextureTable.h"
 
 namespace po
 {

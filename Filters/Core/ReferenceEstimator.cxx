@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReferenceEstimator.h"
 
+#include "Constants.h"
 #include "Random.h"
 #include "Sampling.h"
 #include "TexelMap.h"
@@ -18,8 +19,6 @@ namespace po
 {
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
-
 /// What all texels of a row have in common.
 struct TexelRow
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling.h"
 
+#include "Constants.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,11 +10,6 @@
 
 namespace po
 {
-namespace
-{
-constexpr double Pi = 3.14159265358979323846;
-}
-
 StratifiedSquare::StratifiedSquare(int count)
 {
   const int rows = std::max(1, static_cast<int>(std::lround(std::sqrt(count))));

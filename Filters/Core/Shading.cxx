@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Shading.h"
 
+#include "Constants.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -158,7 +160,7 @@ IncidentLight illuminate(const Light& light, Vec3d point)
   double strength = 1 / (a[0] + a[1] * distance + a[2] * distance * distance);
   if (light.coneAngle < 90)
   {
-    constexpr double RadiansPerDegree = 3.14159265358979323846 / 180;
+    constexpr double RadiansPerDegree = Pi / 180;
     const double cosine = -dot(direction, light.direction);
     const bool inside = cosine >= std::cos(RadiansPerDegree * light.coneAngle);
     strength *= inside ? std::pow(cosine, light.exponent) : 0;

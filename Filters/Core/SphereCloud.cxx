@@ -32,11 +32,6 @@ struct Extent
   [[nodiscard]] Vec3d middle() const { return 0.5 * low + 0.5 * high; }
 };
 
-bool isFinite(Vec3d p)
-{
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
 /// Counts the particle under the first reason that makes it unusable; true if there is none.
 bool accept(Vec3d position, double radius, RejectedParticles& rejected)
 {

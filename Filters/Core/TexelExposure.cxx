@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelExposure.h"
 
+#include "Constants.h"
 #include "TexelMask.h"
 
 #include <cmath>
@@ -9,8 +10,6 @@ namespace po
 {
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
-
 /// A cap with what decides a whole texel: cosines of the angle between the axis and the texel's
 /// centre, by row of the fine grid.
 struct PreparedCap

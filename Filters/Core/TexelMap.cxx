@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelMap.h"
 
+#include "Constants.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace po
 {
-namespace
-{
-constexpr double Pi = 3.14159265358979323846;
-}
-
 TextureCoordinate textureCoordinate(Vec3d d)
 {
   const double azimuth = std::atan2(d.y, d.x);

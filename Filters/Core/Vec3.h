@@ -58,6 +58,12 @@ template <typename T>
   return std::sqrt(dot(a, a));
 }
 
+template <typename T>
+[[nodiscard]] bool isFinite(Vec3<T> a)
+{
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
 /// The unit vector along a; a must not be zero.
 template <typename T>
 [[nodiscard]] Vec3<T> normalized(Vec3<T> a)

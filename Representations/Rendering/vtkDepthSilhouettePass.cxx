@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthSilhouettePass.h"
 
+#include "Projection.h"
 #include "SilhouettePainter.h"
 
 #include "vtkCamera.h"
@@ -16,7 +17,6 @@
 #include "vtkSmartPointer.h"
 #include "vtkTransform.h"
 
-#include <cmath>
 #include <optional>
 
 vtkStandardNewMacro(vtkDepthSilhouettePass);
@@ -42,16 +42,8 @@ SilhouetteViewport viewportOf(const vtkRenderState* state)
 /// The projection that the mappers draw with; nothing if it is singular.
 std::optional<po::WindowToEye> windowToEyeOf(vtkRenderer* renderer)
 {
-  vtkMatrix4x4* projection = renderer->GetActiveCamera()->GetProjectionTransformMatrix(
-    renderer->GetTiledAspectRatio(), -1.0, 1.0);
-  const double determinant = projection->Determinant();
-  if (!std::isfinite(determinant) || determinant == 0.0)
-  {
-    return std::nullopt;
-  }
-  po::Matrix4 inverse;
-  vtkMatrix4x4::Invert(projection->GetData(), inverse.data());
-  return po::makeWindowToEye(inverse);
+  return po::windowToEyeOf(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
+    renderer->GetTiledAspectRatio(), -1.0, 1.0));
 }
 
 vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state)
@@ -91,19 +83,12 @@ vtkDepthSilhouettePass::~vtkDepthSilhouettePass() = default;
 
 bool vtkDepthSilhouettePass::CheckParameters()
 {
-  if (!(this->Threshold >= 0.0) || !std::isfinite(this->Threshold))
+  const std::string fault = po::faultOf({ this->Threshold, this->BackgroundDepth });
+  if (!fault.empty())
   {
-    vtkErrorMacro("Threshold is " << this->Threshold
-                                  << "; it must be a length >= 0 in world units (0: automatic).");
-    return false;
+    vtkErrorMacro(<< fault);
   }
-  if (!(this->BackgroundDepth >= 0.0) || !std::isfinite(this->BackgroundDepth))
-  {
-    vtkErrorMacro("BackgroundDepth is "
-      << this->BackgroundDepth << "; it must be a depth >= 0 in world units (0: automatic).");
-    return false;
-  }
-  return true;
+  return fault.empty();
 }
 
 void vtkDepthSilhouettePass::Render(const vtkRenderState* state)

@@ -2,11 +2,10 @@
 #include "vtkRayTracedSphereRepresentation.h"
 
 #include "BakedTextures.h"
+#include "Blocks.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
-#include "vtkCompositeDataIterator.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -56,25 +55,9 @@ vtkSmartPointer<vtkPointSet> pointsOf(vtkDataSet* data)
 std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
 {
   std::vector<vtkSmartPointer<vtkPointSet>> blocks;
-  const auto add = [&](vtkDataObject* leaf)
+  for (vtkDataSet* block : po::blocksWithPoints(data))
   {
-    auto* block = vtkDataSet::SafeDownCast(leaf);
-    if (block && block->GetNumberOfPoints() > 0)
-    {
-      blocks.push_back(pointsOf(block));
-    }
-  };
-  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
-  {
-    const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-    for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-    {
-      add(leaves->GetCurrentDataObject());
-    }
-  }
-  else
-  {
-    add(data);
+    blocks.push_back(pointsOf(block));
   }
   return blocks;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Gamma2.h"
 #include "TextureTable.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace
@@ -37,6 +39,9 @@ TEST(Encoding, EndsAreExact)
   EXPECT_EQ(po::encodeGamma2(1, 1), 255);
   EXPECT_EQ(po::encodeGamma2(0, 0), 0); // a table that is dark throughout
   EXPECT_EQ(po::decodeGamma2(0, 0), 0);
+  EXPECT_EQ(po::encodeGamma2(-1, 1), 0);
+  EXPECT_EQ(po::encodeGamma2(2, 1), 255);
+  EXPECT_EQ(po::encodeGamma2(std::numeric_limits<double>::quiet_NaN(), 1), 0);
 }
 
 TEST(TextureTable, StoresEqualTexturesOnce)

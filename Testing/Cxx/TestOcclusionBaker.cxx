@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BruteForceVisibility.h"
+#include "Constants.h"
 #include "ErrorPilot.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
@@ -17,7 +18,7 @@
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
+using po::Pi;
 
 po::BakeResult bake(const std::vector<po::Sphere>& spheres, const po::BakeSettings& settings)
 {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Constants.h"
 #include "Sampling.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
+using po::Pi;
 
 TEST(Sampling, EveryStratumHasTheSameAreaAndHoldsItsPoints)
 {

@@ -2,6 +2,7 @@
 /// The parts that a sweep is made of, each by itself.
 
 #include "BackgroundIrradiance.h"
+#include "Constants.h"
 #include "Random.h"
 #include "Sampling.h"
 #include "SweepDirections.h"
@@ -18,7 +19,7 @@
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
+using po::Pi;
 
 TEST(SweepDirections, AreUnitEvenAndWellSpreadFromTheStart)
 {

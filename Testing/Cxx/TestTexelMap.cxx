@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Constants.h"
 #include "Random.h"
 #include "TexelMap.h"
 
@@ -8,7 +9,7 @@
 
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
+using po::Pi;
 
 TEST(TexelMap, AreasAddUpToTheSphere)
 {
