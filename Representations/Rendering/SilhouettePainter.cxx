@@ -10,6 +10,8 @@
 #include "vtkShaderProgram.h"
 #include "vtk_glew.h"
 
+namespace po
+{
 namespace
 {
 /// Side of the block that one pixel of the next level stands for, as in vtkSilhouetteFarthestFS.
@@ -55,7 +57,7 @@ private:
   vtkTextureObject* texture_;
 };
 
-void setMatrix(vtkShaderProgram* program, const char* name, const po::Matrix4& matrix)
+void setMatrix(vtkShaderProgram* program, const char* name, const Matrix4& matrix)
 {
   std::array<float, 16> columns; // OpenGL has columns first
   for (int row = 0; row < 4; ++row)
@@ -100,7 +102,7 @@ void prepareToDraw(vtkOpenGLState* state)
 }
 
 std::string SilhouettePainter::readDepth(vtkOpenGLRenderWindow* window,
-  const SilhouetteViewport& viewport, const po::WindowToEye& windowToEye, bool whole)
+  const SilhouetteViewport& viewport, const WindowToEye& windowToEye, bool whole)
 {
   GLint frame = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &frame);
@@ -250,7 +252,7 @@ void SilhouettePainter::drawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& 
   quad.Render();
 }
 
-void SilhouettePainter::computeDistances(const po::WindowToEye& windowToEye)
+void SilhouettePainter::computeDistances(const WindowToEye& windowToEye)
 {
   vtkShaderProgram* program = distanceQuad_->Program;
   window_->GetShaderCache()->ReadyShaderProgram(program);
@@ -292,8 +294,8 @@ void SilhouettePainter::drawLines(
   program->SetUniformi("margin", margin);
   program->SetUniformf("threshold", static_cast<float>(style.edges.threshold));
   program->SetUniformf("backgroundDepth", static_cast<float>(style.edges.backgroundDepth));
-  program->SetUniformf("automaticShare", static_cast<float>(po::AutomaticThresholdShare));
-  program->SetUniformf("backgroundMargin", static_cast<float>(po::BackgroundMargin));
+  program->SetUniformf("automaticShare", static_cast<float>(AutomaticThresholdShare));
+  program->SetUniformf("backgroundMargin", static_cast<float>(BackgroundMargin));
   program->SetUniform4f("lineColor", style.color.data());
   lineQuad_->Render();
 }
@@ -301,4 +303,5 @@ void SilhouettePainter::drawLines(
 void SilhouettePainter::releaseGraphicsResources()
 {
   *this = SilhouettePainter();
+}
 }

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+namespace po
+{
 /// Pixels of a frame buffer.
 struct SilhouetteViewport
 {
@@ -29,7 +31,7 @@ struct SilhouetteViewport
 
 struct SilhouetteStyle
 {
-  po::SilhouetteParameters edges;
+  SilhouetteParameters edges;
   /// RGB and opacity, in [0, 1].
   std::array<float, 4> color;
 };
@@ -44,7 +46,7 @@ public:
   /// the tile itself if there was none), so that tiles fit together. Returns what went wrong;
   /// empty if nothing did.
   std::string readDepth(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
-    const po::WindowToEye& windowToEye, bool whole);
+    const WindowToEye& windowToEye, bool whole);
 
   /// Draws over the frame buffer that is bound for drawing. The depth that was read reaches
   /// `margin` pixels beyond the viewport on each side.
@@ -71,7 +73,7 @@ private:
   bool buildPrograms();
 
   bool copyDepth(unsigned int frame, const SilhouetteViewport& viewport);
-  void computeDistances(const po::WindowToEye& windowToEye);
+  void computeDistances(const WindowToEye& windowToEye);
   void findFarthest();
   void drawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad);
 
@@ -88,5 +90,6 @@ private:
   std::unique_ptr<vtkOpenGLQuadHelper> farthestQuad_;
   std::unique_ptr<vtkOpenGLQuadHelper> lineQuad_;
 };
+}
 
 #endif

@@ -24,9 +24,9 @@ vtkStandardNewMacro(vtkDepthSilhouettePass);
 namespace
 {
 /// Where the renderer draws in the frame buffer that is bound.
-SilhouetteViewport viewportOf(const vtkRenderState* state)
+po::SilhouetteViewport viewportOf(const vtkRenderState* state)
 {
-  SilhouetteViewport viewport{};
+  po::SilhouetteViewport viewport{};
   if (auto* frame = vtkOpenGLFramebufferObject::SafeDownCast(state->GetFrameBuffer()))
   {
     frame->GetLastSize(viewport.width, viewport.height);
@@ -54,7 +54,7 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state)
 /// Not with an empty viewport or a degenerate camera.
 bool canBeSeen(const vtkRenderState* state)
 {
-  const SilhouetteViewport viewport = viewportOf(state);
+  const po::SilhouetteViewport viewport = viewportOf(state);
   return viewport.width > 0 && viewport.height > 0 && windowToEyeOf(state->GetRenderer());
 }
 
@@ -71,7 +71,7 @@ constexpr int TileMargin = 1;
 
 struct vtkDepthSilhouettePass::Internals
 {
-  SilhouettePainter Painter;
+  po::SilhouettePainter Painter;
 };
 
 vtkDepthSilhouettePass::vtkDepthSilhouettePass()
@@ -133,8 +133,8 @@ std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* st
 {
   vtkRenderer* renderer = state->GetRenderer();
   vtkOpenGLRenderWindow* window = windowOf(state);
-  const SilhouetteViewport tile = viewportOf(state);
-  const SilhouetteViewport around{ 0, 0, tile.width + 2 * TileMargin,
+  const po::SilhouetteViewport tile = viewportOf(state);
+  const po::SilhouetteViewport around{ 0, 0, tile.width + 2 * TileMargin,
     tile.height + 2 * TileMargin };
 
   window->GetState()->PushFramebufferBindings();
@@ -169,7 +169,7 @@ std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* st
 
 void vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state, int margin)
 {
-  const SilhouetteStyle style{ { this->Threshold, this->BackgroundDepth },
+  const po::SilhouetteStyle style{ { this->Threshold, this->BackgroundDepth },
     { static_cast<float>(this->Color[0]), static_cast<float>(this->Color[1]),
       static_cast<float>(this->Color[2]), static_cast<float>(this->Opacity) } };
   this->Internal->Painter.drawLines(viewportOf(state), margin, style);
