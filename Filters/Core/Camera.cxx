@@ -159,7 +159,7 @@ PrimaryRay PrimaryRays::at(double windowX, double windowY) const
   const double nearest = dz + dw > 0 ? -(z + w) / (dz + dw) : -Infinity;
   const double farthest = dw - dz < 0 ? -(w - z) / (dw - dz) : Infinity;
   return { localOrigin_.at(x, y), (1 / localLength) * direction, nearest * localLength,
-    farthest * localLength, worldLength / localLength };
+    farthest * localLength, worldLength / localLength, z, w, dz / localLength, dw / localLength };
 }
 
 Vec3d PrimaryRays::worldDirection(double x, double y) const
@@ -170,15 +170,6 @@ Vec3d PrimaryRays::worldDirection(double x, double y) const
 Vec3d PrimaryRays::worldPoint(double x, double y, double t) const
 {
   return worldOrigin_.at(clipX(x), clipY(y)) + t * worldDirection(x, y);
-}
-
-double PrimaryRays::windowDepth(double windowX, double windowY, double t) const
-{
-  const double x = clipX(windowX), y = clipY(windowY);
-  const double s = t / length(worldDirection_.at(x, y));
-  const double z = originZ_.at(x, y) + s * directionZ_.at(x, y);
-  const double w = originW_.at(x, y) + s * directionW_.at(x, y);
-  return 0.5 * (z / w) + 0.5;
 }
 
 bool PrimaryRays::mayShowBox(

@@ -50,6 +50,14 @@ struct PrimaryRay
   double nearest;       ///< s of the near plane
   double farthest;      ///< s of the far plane
   double worldPerLocal; ///< t in world units = s * worldPerLocal
+  // Clip coordinates z and w at the origin, and their growth with s.
+  double originZ, originW, growthZ, growthW;
+
+  /// Depth in the window, 0 at the near and 1 at the far plane.
+  [[nodiscard]] double windowDepth(double s) const
+  {
+    return 0.5 * ((originZ + s * growthZ) / (originW + s * growthW)) + 0.5;
+  }
 };
 
 /// Makes eye rays through pixel centres, in double precision from the matrices to the ray.
@@ -77,9 +85,6 @@ public:
 
   /// Point at distance t (world units) on the same ray in world space.
   [[nodiscard]] Vec3d worldPoint(double x, double y, double t) const;
-
-  /// Depth in the window, 0 at the near and 1 at the far plane, of the point at distance t.
-  [[nodiscard]] double windowDepth(double x, double y, double t) const;
 
   /// Can any point of the box be seen through the rectangle of the window? May err towards yes.
   [[nodiscard]] bool mayShowBox(

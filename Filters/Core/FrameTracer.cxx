@@ -135,6 +135,32 @@ RTCRayHit makeRay(const PrimaryRay& ray, double start, float tnear)
   return query;
 }
 
+/// Makes room; the pixels keep what they had until their tile is traced.
+void resize(TracedFrame& frame, int width, int height)
+{
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  frame.width = width;
+  frame.height = height;
+  frame.t.resize(pixels);
+  frame.sphere.resize(pixels);
+  frame.normal.resize(pixels);
+  frame.windowDepth.resize(pixels);
+}
+
+/// Pixels [x0, x1) x [y0, y1) see nothing.
+void clear(TracedFrame& frame, int x0, int y0, int x1, int y1)
+{
+  constexpr float Nothing = 2;
+  for (int y = y0; y < y1; ++y)
+  {
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * frame.width + x0;
+    std::fill_n(frame.t.begin() + first, x1 - x0, Infinity);
+    std::fill_n(frame.sphere.begin() + first, x1 - x0, SphereScene::None);
+    std::fill_n(frame.normal.begin() + first, x1 - x0, Vec3f{});
+    std::fill_n(frame.windowDepth.begin() + first, x1 - x0, Nothing);
+  }
+}
+
 class Tracer
 {
 public:
@@ -151,6 +177,7 @@ public:
     const int x0 = tileX * TileSize, x1 = std::min(x0 + TileSize, frame_.width);
     const int y0 = tileY * TileSize, y1 = std::min(y0 + TileSize, frame_.height);
     ++counters.tiles;
+    clear(frame_, x0, y0, x1, y1);
     if (!rays_.mayShowBox(box_.low, box_.high, x0, y0, x1, y1))
     {
       ++counters.tilesSkipped;
@@ -288,6 +315,7 @@ private:
     frame_.t[pixel] = hit.s * ray.worldPerLocal;
     frame_.sphere[pixel] = hit.sphere;
     frame_.normal[pixel] = hit.normal.as<float>();
+    frame_.windowDepth[pixel] = static_cast<float>(std::clamp(ray.windowDepth(hit.s), 0.0, 1.0));
   }
 
   const SphereScene& scene_;
@@ -295,23 +323,14 @@ private:
   TracedFrame& frame_;
   Box box_;
 };
-
-void clear(TracedFrame& frame, int width, int height)
-{
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  frame.width = width;
-  frame.height = height;
-  frame.t.assign(pixels, Infinity);
-  frame.sphere.assign(pixels, SphereScene::None);
-  frame.normal.assign(pixels, Vec3f{});
-}
 }
 
 TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, TracedFrame& frame)
 {
-  clear(frame, rays.width(), rays.height());
+  resize(frame, rays.width(), rays.height());
   if (scene.spheres().empty())
   {
+    clear(frame, 0, 0, frame.width, frame.height);
     return {};
   }
   const Tracer tracer(scene, rays, frame);

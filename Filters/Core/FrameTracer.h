@@ -18,7 +18,8 @@ struct TracedFrame
   int height = 0;
   std::vector<double> t;             ///< distance along the ray in world units, +infinity: nothing
   std::vector<std::uint32_t> sphere; ///< index into the scene's spheres, or SphereScene::None
-  std::vector<Vec3f> normal;         ///< local outward unit normal of a hit
+  std::vector<Vec3f> normal;         ///< local outward unit normal of a hit, otherwise 0
+  std::vector<float> windowDepth;    ///< 0 at the near and 1 at the far plane, 2: nothing
 
   [[nodiscard]] std::size_t pixels() const { return sphere.size(); }
 };

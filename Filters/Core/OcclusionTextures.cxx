@@ -28,13 +28,13 @@ OcclusionTextures::OcclusionTextures(
 {
 }
 
-float OcclusionTextures::at(std::size_t particle, Vec3d direction) const
+float OcclusionTextures::at(std::size_t particle, Vec3f direction) const
 {
   if (!rows_ || rows_[particle] < 0)
   {
     return means_ ? means_[particle] : 1.0f;
   }
-  const BilinearTexels texels = bilinearTexels(resolution_, textureCoordinate(direction));
+  const BilinearTexels texels = bilinearTexels(resolution_, fastTextureCoordinate(direction));
   const std::size_t first =
     static_cast<std::size_t>(rows_[particle]) * texelIndex(resolution_, resolution_, 0);
   float sum = 0;

@@ -39,7 +39,7 @@ public:
 
   /// Bilinear value where `direction` (of any length) leaves the particle's centre. The texels are
   /// decoded first, so that the interpolation is one of light, not of code values.
-  [[nodiscard]] float at(std::size_t particle, Vec3d direction) const;
+  [[nodiscard]] float at(std::size_t particle, Vec3f direction) const;
 
 private:
   int resolution_ = 0;

@@ -42,7 +42,7 @@ Vec3f modulate(Vec3f a, Vec3f b)
 
 std::uint8_t toByte(float value)
 {
-  return static_cast<std::uint8_t>(std::lround(255.0f * std::clamp(value, 0.0f, 1.0f)));
+  return static_cast<std::uint8_t>(255.0f * std::clamp(value, 0.0f, 1.0f) + 0.5f);
 }
 
 /// Diffuse and specular light at a point, before the surface's colours.
@@ -50,43 +50,6 @@ struct DirectLight
 {
   Vec3f diffuse, specular;
 };
-
-double highlight(const Light& light, Vec3d toLight, Vec3d normal, Vec3d view, double power)
-{
-  // The mirrored ray for all lights but a lone headlight, whose direction is the axis of view.
-  const double facing = dot(normal, toLight);
-  const Vec3d mirrored = 2 * facing * normal - toLight;
-  const double cosine = light.headlight ? facing : -dot(mirrored, view);
-  return std::pow(std::max(cosine, 1e-5), power);
-}
-
-DirectLight gather(const ShadingInput& in, std::size_t pixel, Vec3d point, Vec3d normal, Vec3d view)
-{
-  DirectLight sum;
-  for (std::size_t i = 0; i < in.lights.size(); ++i)
-  {
-    const bool masked = i < in.shadows.lit.size() && !in.shadows.lit[i].empty();
-    if (masked && in.shadows.lit[i][pixel] == 0)
-    {
-      continue;
-    }
-    const Light& light = in.lights[i];
-    const IncidentLight incident = illuminate(light, point);
-    const double facing = dot(normal, incident.direction);
-    if (facing <= 0 || incident.strength <= 0)
-    {
-      continue;
-    }
-    sum.diffuse = sum.diffuse + static_cast<float>(incident.strength * facing) * light.color;
-    if (in.material.specular > 0)
-    {
-      const double shine =
-        highlight(light, incident.direction, normal, view, in.material.specularPower);
-      sum.specular = sum.specular + static_cast<float>(incident.strength * shine) * light.color;
-    }
-  }
-  return sum;
-}
 
 Vec3f particleColor(const Material& material, std::int64_t particle, Vec3f otherwise)
 {
@@ -98,32 +61,121 @@ Vec3f particleColor(const Material& material, std::int64_t particle, Vec3f other
   return (1.0f / 255) * Vec3f{ float(rgba[0]), float(rgba[1]), float(rgba[2]) };
 }
 
-Vec3f shadePixel(const ShadingInput& in, int x, int y, std::size_t pixel)
+/// Colours pixels one by one. What few scenes need, such as the direction of view (for highlights)
+/// or the place of the hit (for lights that have a place), is computed only for those.
+class PixelShader
 {
-  const Material& m = in.material;
-  const TracedFrame& frame = in.frame;
-  const std::int64_t particle = in.particles[frame.sphere[pixel]];
-  const Vec3f normal = frame.normal[pixel];
-  const Vec3f diffuseColor = particleColor(m, particle, m.diffuseColor);
-  const float occlusion = m.mode == ShadingMode::DirectLight
-    ? 1.0f
-    : in.textures.at(static_cast<std::size_t>(particle), normal.as<double>());
-  if (m.mode == ShadingMode::AmbientOcclusion)
+public:
+  explicit PixelShader(const ShadingInput& input)
+    : in_(input)
+    , needsView_(input.material.specular > 0)
   {
-    return occlusion * diffuseColor;
+    for (std::size_t i = 0; i < input.lights.size(); ++i)
+    {
+      const bool masked = i < input.shadows.lit.size() && !input.shadows.lit[i].empty();
+      masks_.push_back(masked ? input.shadows.lit[i].data() : nullptr);
+      needsPoint_ = needsPoint_ || input.lights[i].positional;
+    }
+    for (std::size_t i = 0; i < toLocal_.size(); ++i)
+    {
+      toLocal_[i] = static_cast<float>(input.rays.worldToLocal()[i] / largestEntry());
+    }
   }
-  const Vec3f ambient =
-    static_cast<float>(m.ambient) * occlusion * particleColor(m, particle, m.ambientColor);
-  const float diffuse = static_cast<float>(m.diffuse) * (m.occlusionOnDiffuse ? occlusion : 1.0f);
-  if (!m.lighting)
+
+  [[nodiscard]] Vec3f shade(int x, int y, std::size_t pixel) const
   {
-    return ambient + diffuse * diffuseColor;
+    const Material& m = in_.material;
+    const std::int64_t particle = in_.particles[in_.frame.sphere[pixel]];
+    const Vec3f diffuseColor = particleColor(m, particle, m.diffuseColor);
+    const float occlusion = m.mode == ShadingMode::DirectLight
+      ? 1.0f
+      : in_.textures.at(static_cast<std::size_t>(particle), in_.frame.normal[pixel]);
+    if (m.mode == ShadingMode::AmbientOcclusion)
+    {
+      return occlusion * diffuseColor;
+    }
+    const Vec3f ambient =
+      static_cast<float>(m.ambient) * occlusion * particleColor(m, particle, m.ambientColor);
+    const float diffuse = static_cast<float>(m.diffuse) * (m.occlusionOnDiffuse ? occlusion : 1.0f);
+    if (!m.lighting)
+    {
+      return ambient + diffuse * diffuseColor;
+    }
+    const DirectLight light = gather(x, y, pixel);
+    return ambient + diffuse * modulate(light.diffuse, diffuseColor) +
+      static_cast<float>(m.specular) * modulate(light.specular, m.specularColor);
   }
-  const DirectLight light = gather(in, pixel, in.rays.worldPoint(x + 0.5, y + 0.5, frame.t[pixel]),
-    worldNormal(in.rays, normal), in.rays.worldDirection(x + 0.5, y + 0.5));
-  return ambient + diffuse * modulate(light.diffuse, diffuseColor) +
-    static_cast<float>(m.specular) * modulate(light.specular, m.specularColor);
-}
+
+private:
+  /// Normals follow the transpose of worldToLocal; a common factor does not matter to them, and
+  /// keeps any scale of the data within the range of a float.
+  [[nodiscard]] double largestEntry() const
+  {
+    double largest = 0;
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      for (std::size_t column = 0; column < 3; ++column)
+      {
+        largest = std::max(largest, std::abs(in_.rays.worldToLocal()[4 * row + column]));
+      }
+    }
+    return largest;
+  }
+
+  [[nodiscard]] Vec3f normalInWorld(Vec3f n) const
+  {
+    const auto& m = toLocal_;
+    return normalized(Vec3f{ n.x * m[0] + n.y * m[4] + n.z * m[8],
+      n.x * m[1] + n.y * m[5] + n.z * m[9], n.x * m[2] + n.y * m[6] + n.z * m[10] });
+  }
+
+  [[nodiscard]] DirectLight gather(int x, int y, std::size_t pixel) const
+  {
+    const Vec3f normal = normalInWorld(in_.frame.normal[pixel]);
+    const Vec3d point =
+      needsPoint_ ? in_.rays.worldPoint(x + 0.5, y + 0.5, in_.frame.t[pixel]) : Vec3d{};
+    const Vec3f view = needsView_ ? in_.rays.worldDirection(x + 0.5, y + 0.5).as<float>() : Vec3f{};
+    DirectLight sum;
+    for (std::size_t i = 0; i < in_.lights.size(); ++i)
+    {
+      if (masks_[i] && masks_[i][pixel] == 0)
+      {
+        continue;
+      }
+      const Light& light = in_.lights[i];
+      const IncidentLight incident = illuminate(light, point);
+      const Vec3f toLight = incident.direction.as<float>();
+      const float facing = dot(normal, toLight);
+      const auto strength = static_cast<float>(incident.strength);
+      if (facing <= 0 || strength <= 0)
+      {
+        continue;
+      }
+      sum.diffuse = sum.diffuse + (strength * facing) * light.color;
+      if (needsView_)
+      {
+        sum.specular =
+          sum.specular + (strength * highlight(light, toLight, normal, view)) * light.color;
+      }
+    }
+    return sum;
+  }
+
+  [[nodiscard]] float highlight(const Light& light, Vec3f toLight, Vec3f normal, Vec3f view) const
+  {
+    // The mirrored ray for all lights but a lone headlight, whose direction is the axis of view.
+    const float facing = dot(normal, toLight);
+    const Vec3f mirrored = 2 * facing * normal - toLight;
+    const float cosine = light.headlight ? facing : -dot(mirrored, view);
+    return std::pow(std::max(cosine, 1e-5f), static_cast<float>(in_.material.specularPower));
+  }
+
+  const ShadingInput& in_;
+  std::vector<const std::uint8_t*> masks_; ///< of each light, or null: it reaches all pixels
+  std::array<float, 12> toLocal_{};        ///< rows of worldToLocal, scaled
+  bool needsPoint_ = false;
+  bool needsView_;
+};
 
 /// Does the light reach the hit? One ray at most; counts what was done.
 bool isLit(const SphereScene& scene, const PrimaryRays& rays, const TracedFrame& frame,
@@ -194,16 +246,23 @@ ShadowCounters traceShadows(const SphereScene& scene, const PrimaryRays& rays,
 
 void shadeFrame(const ShadingInput& in, std::vector<std::uint8_t>& rgba)
 {
-  rgba.assign(4 * in.frame.pixels(), 0);
-  forEachHit(in.frame,
-    [&](int x, int y, std::size_t pixel)
+  rgba.resize(4 * in.frame.pixels());
+  const PixelShader shader(in);
+  const auto shadeRow = [&](int y)
+  {
+    std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(in.frame.width);
+    for (int x = 0; x < in.frame.width; ++x, ++pixel)
     {
-      const Vec3f color = shadePixel(in, x, y, pixel);
-      rgba[4 * pixel + 0] = toByte(color.x);
-      rgba[4 * pixel + 1] = toByte(color.y);
-      rgba[4 * pixel + 2] = toByte(color.z);
-      rgba[4 * pixel + 3] = 255;
-    });
+      const bool hit = in.frame.sphere[pixel] != SphereScene::None;
+      const Vec3f color = hit ? shader.shade(x, y, pixel) : Vec3f{};
+      std::uint8_t* bytes = rgba.data() + 4 * pixel;
+      bytes[0] = toByte(color.x);
+      bytes[1] = toByte(color.y);
+      bytes[2] = toByte(color.z);
+      bytes[3] = hit ? 255 : 0;
+    }
+  };
+  tbb::parallel_for(0, in.frame.height, shadeRow);
 }
 
 void lookUpOcclusion(const TracedFrame& frame, const std::vector<std::int64_t>& particles,
@@ -214,7 +273,7 @@ void lookUpOcclusion(const TracedFrame& frame, const std::vector<std::int64_t>& 
     [&](int, int, std::size_t pixel)
     {
       const auto particle = static_cast<std::size_t>(particles[frame.sphere[pixel]]);
-      occlusion[pixel] = textures.at(particle, frame.normal[pixel].as<double>());
+      occlusion[pixel] = textures.at(particle, frame.normal[pixel]);
     });
 }
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereRenderer.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -94,35 +90,12 @@ bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)
   {
     const Stopwatch watch(statistics_.traceSeconds);
     statistics_.trace = traceFrame(*scene_, *rays_, frame_);
-    computeWindowDepth();
   }
   ++statistics_.framesTraced;
   camera_ = camera;
   modelToWorld_ = modelToWorld;
   frameIsCurrent_ = true;
   return true;
-}
-
-void SphereRenderer::computeWindowDepth()
-{
-  constexpr float Background = 2;
-  windowDepth_.resize(frame_.pixels());
-  tbb::parallel_for(tbb::blocked_range<int>(0, frame_.height),
-    [this](const tbb::blocked_range<int>& rows)
-    {
-      for (int y = rows.begin(); y < rows.end(); ++y)
-      {
-        std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width);
-        for (int x = 0; x < frame_.width; ++x, ++pixel)
-        {
-          const bool hit = frame_.sphere[pixel] != SphereScene::None;
-          windowDepth_[pixel] = hit
-            ? static_cast<float>(
-                std::clamp(rays_->windowDepth(x + 0.5, y + 0.5, frame_.t[pixel]), 0.0, 1.0))
-            : Background;
-        }
-      }
-    });
 }
 
 void SphereRenderer::castShadows(const std::vector<Light>& lights)

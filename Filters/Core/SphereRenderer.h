@@ -52,9 +52,6 @@ public:
   [[nodiscard]] const TracedFrame& frame() const { return frame_; }
   [[nodiscard]] const std::vector<std::uint8_t>& rgba() const { return rgba_; }
 
-  /// Depth of each pixel, 0 at the near and 1 at the far plane; 2 on background.
-  [[nodiscard]] const std::vector<float>& windowDepth() const { return windowDepth_; }
-
   /// Only after a trace that succeeded.
   [[nodiscard]] const PrimaryRays& rays() const { return *rays_; }
 
@@ -62,7 +59,6 @@ public:
 
 private:
   void buildScene();
-  void computeWindowDepth();
   void castShadows(const std::vector<Light>& lights);
 
   SphereCloud cloud_;
@@ -73,7 +69,6 @@ private:
   bool frameIsCurrent_ = false;
   bool isShaded_ = false;
   TracedFrame frame_;
-  std::vector<float> windowDepth_;
   std::vector<Light> shadowLights_; ///< of the masks
   ShadowMasks shadows_;
   std::vector<std::uint8_t> rgba_;

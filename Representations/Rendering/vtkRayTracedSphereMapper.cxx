@@ -193,7 +193,7 @@ void vtkRayTracedSphereMapper::TraceAndDraw(vtkRenderer* renderer, vtkActor* act
   std::string error;
   this->Internal->Drawer.draw(window, viewport,
     selector ? this->Internal->SelectionColors : this->Internal->Renderer.rgba(),
-    this->Internal->Renderer.windowDepth(), error);
+    this->Internal->Renderer.frame().windowDepth, error);
   if (selector)
   {
     selector->EndRenderProp();

@@ -165,12 +165,13 @@ TEST(FrameTracer, WindowDepthIsThatOfTheProjection)
   {
     const Camera camera = lookAtOrigin(perspective, 10, 2, 40, 30, 4, 25);
     const PrimaryRays rays = *PrimaryRays::make(camera, translation(3, 4, 5));
+    const PrimaryRay ray = rays.at(7.25, 11.5);
     for (const double t : { 4.5, 9.0, 20.0 })
     {
       const Vec3d eye = transformPoint(camera.worldToEye, rays.worldPoint(7.25, 11.5, t));
       const Vec3d clip = transformPoint(camera.eyeToClip, eye);
       const double w = perspective ? -eye.z : 1;
-      EXPECT_NEAR(rays.windowDepth(7.25, 11.5, t), 0.5 + 0.5 * clip.z / w, 1e-12);
+      EXPECT_NEAR(ray.windowDepth(t / ray.worldPerLocal), 0.5 + 0.5 * clip.z / w, 1e-12);
       EXPECT_NEAR(clip.x / w, 2 * 7.25 / 40 - 1, 1e-12);
       EXPECT_NEAR(clip.y / w, 2 * 11.5 / 30 - 1, 1e-12);
     }

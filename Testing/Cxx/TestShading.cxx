@@ -135,8 +135,8 @@ TEST(OcclusionTextures, ValueIsTheBilinearOneOfTheCore)
     {
       expected += texels.weight[k] * one.values[texels.index[k]];
     }
-    EXPECT_NEAR(floats.at(0, textureDirection(c)), expected, 1e-5);
-    EXPECT_NEAR(bytes.at(0, textureDirection(c)), expected, 1e-5);
+    EXPECT_NEAR(floats.at(0, textureDirection(c).as<float>()), expected, 1e-5);
+    EXPECT_NEAR(bytes.at(0, textureDirection(c).as<float>()), expected, 1e-5);
   }
 }
 
@@ -147,8 +147,8 @@ TEST(OcclusionTextures, NoJumpAcrossTheSeam)
   const double step = 1e-6;
   for (double v = 0.01; v < 1; v += 0.01)
   {
-    const float before = textures.at(0, textureDirection({ 1 - step, v }));
-    const float after = textures.at(0, textureDirection({ step, v }));
+    const float before = textures.at(0, textureDirection({ 1 - step, v }).as<float>());
+    const float after = textures.at(0, textureDirection({ step, v }).as<float>());
     // Values differ by at most 0.8 over a texel, which is 1/8 of u.
     EXPECT_NEAR(before, after, 2 * step * 8 * 0.8 + 1e-6) << v;
   }

@@ -51,6 +51,33 @@ TEST(TexelMap, AxesLieWhereTheConventionSays)
   EXPECT_NEAR(po::textureCoordinate({ 1e-6, 0, 1 }).v, 1e-6 / Pi, 1e-18);
 }
 
+TEST(TexelMap, FastCoordinatesAreWithinTheirBound)
+{
+  po::Random random(2, 0, 0);
+  for (int i = 0; i < 200000; ++i)
+  {
+    const po::TextureCoordinate c{ random.uniform(), random.uniform() };
+    const po::Vec3f d = po::textureDirection(c).as<float>();
+    const po::TextureCoordinate exact = po::textureCoordinate(d.as<double>());
+    const po::TextureCoordinate fast = po::fastTextureCoordinate(d);
+    const double across = std::abs(fast.u - exact.u);
+    ASSERT_LT(std::min(across, 1 - across), 3e-7) << c.u << ' ' << c.v;
+    ASSERT_NEAR(fast.v, exact.v, 3e-7) << c.u << ' ' << c.v;
+    ASSERT_TRUE(fast.u >= 0 && fast.u < 1 && fast.v >= 0 && fast.v <= 1);
+  }
+}
+
+TEST(TexelMap, FastCoordinatesOfAxesAndNothing)
+{
+  EXPECT_EQ(po::fastTextureCoordinate({ 0, 0, 2 }).v, 0);
+  EXPECT_EQ(po::fastTextureCoordinate({ 0, 0, -2 }).v, 1);
+  EXPECT_EQ(po::fastTextureCoordinate({ 1, 0, 0 }).u, 0);
+  EXPECT_NEAR(po::fastTextureCoordinate({ -1, 0, 0 }).u, 0.5, 1e-7);
+  EXPECT_NEAR(po::fastTextureCoordinate({ -1, -0.0f, 0 }).u, 0.5, 1e-7);
+  EXPECT_LT(po::fastTextureCoordinate({ 1, -1e-30f, 0 }).u, 1);
+  EXPECT_EQ(po::fastTextureCoordinate({ 0, 0, 0 }).u, 0);
+}
+
 TEST(TexelMap, TexelPointsStayInTheirTexelAndAreUniform)
 {
   constexpr int resolution = 7;
