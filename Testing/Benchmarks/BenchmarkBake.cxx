@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// How much of a Reference bake is Embree and ray generation, and how its ray rate compares with a
-/// bare loop of rtcOccluded1 over the same rays. Everything runs on one thread.
+/// bare loop of rtcOccluded1 over the same rays. Everything runs on one thread; times are CPU time.
 ///
-/// Bake/FAMILY      the estimator: rays, exact overlaps, sums, bookkeeping
-/// Generate/FAMILY  making the same number of rays with the same functions, without tracing them
-/// Bare/FAMILY      rtcOccluded1 over stored rays, without any filter: the upper limit of the rate
+/// Bake/FAMILY      the estimator: rays, occlusion tests, sums, bookkeeping
+/// Generate/FAMILY  the bake's own rays from the bake's own code, dropped instead of traced: the
+///                  search for overlaps, and which samples get a ray, included
+/// Bare/FAMILY      rtcOccluded1 over the very same rays, stored, without any filter
 ///
-/// share = (Generate + Bare) / Bake is what the bake spends in Embree or in ray generation.
+/// Repetitions of all are shuffled, so that load from outside falls on all alike; the table at the
+/// end is of their medians. share = (Generate + Bare) / Bake is what the bake spends in Embree or
+/// in ray generation; ray rate = Bare / (Bake - Generate) is its rate of tracing against the bare
+/// loop's.
 
 #include "Embree.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
-#include "Sampling.h"
+#include "ReferenceRays.h"
 #include "SyntheticSpheres.h"
-#include "TexelMap.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <memory>
@@ -33,12 +35,7 @@ constexpr std::size_t Particles = 100000;
 constexpr std::size_t BakedParticles = 128;
 constexpr int Resolution = 16;
 constexpr int Samples = 49;
-
-struct Ray
-{
-  po::Vec3f origin;
-  po::Vec3f direction;
-};
+constexpr const char* Families[] = { "pack", "overlap", "gas", "shell", "foam" };
 
 /// A family of spheres and the particles that are baked, the same for all benchmarks.
 struct Workload
@@ -86,36 +83,106 @@ po::BakeSettings settings()
   return s;
 }
 
-/// The rays of the Reference estimator for one particle without overlaps, in its order.
-void generateRays(const po::Sphere& sphere, std::uint64_t id, std::vector<Ray>& rays)
+/// Calls f(particle, rays) with the rays of each texel of the bake, in its order.
+template <typename Function>
+void forEachTexel(const Workload& work, const Function& f)
 {
-  static const po::StratifiedSquare strata(Samples);
-  static std::vector<std::uint32_t> pairing(Samples);
-  rays.clear();
-  for (int row = 0; row < Resolution; ++row)
+  const po::BakeSettings s = settings();
+  const po::ReferenceRays rays(work.scene, s);
+  po::ReferenceRays::Workspace memory;
+  for (const unsigned id : work.baked)
   {
-    for (int column = 0; column < Resolution; ++column)
+    const bool visible = rays.beginParticle(id, memory);
+    for (int texel = 0; visible && texel < Resolution * Resolution; ++texel)
     {
-      po::Random random(1, id, po::texelIndex(Resolution, row, column));
-      po::randomPermutation(random, pairing);
-      const po::TexelPatch patch(Resolution, row, column);
-      for (int k = 0; k < Samples; ++k)
-      {
-        const po::Point2 place = strata.point(k, random.uniform(), random.uniform());
-        const po::Point2 heading =
-          strata.point(static_cast<int>(pairing[static_cast<std::size_t>(k)]), random.uniform(),
-            random.uniform());
-        const po::Vec3d n = patch.point(place.x, place.y);
-        const po::Vec3d d = po::aboutNormal(n, po::cosineHemisphereFromSquare(heading));
-        rays.push_back({ sphere.center() + sphere.radius * n.as<float>(), d.as<float>() });
-      }
+      (void)rays.makeRays(id, texel / Resolution, texel % Resolution, memory);
+      f(id, memory.rays);
     }
   }
 }
 
+/// The rays of the bake, and a scene of their own without a filter.
+class BareLoop
+{
+public:
+  explicit BareLoop(const Workload& work)
+    : device_(po::makeDevice())
+    , scene_(rtcNewScene(device_.get()))
+  {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+      work.cloud.spheres.data(), 0, sizeof(po::Sphere), work.cloud.spheres.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_.get());
+    forEachTexel(work,
+      [&](unsigned id, const std::vector<po::TexelRay>& rays)
+      {
+        for (const po::TexelRay& ray : rays)
+        {
+          rays_.push_back(query(ray));
+          differing_ += isOccluded(rays_.back()) != bakeSeesHit(work, id, ray);
+        }
+      });
+  }
+
+  [[nodiscard]] std::size_t size() const { return rays_.size(); }
+
+  /// Rays that the bake's filter decides otherwise than this loop, whose epsilon keeps rays off
+  /// their own sphere.
+  [[nodiscard]] std::size_t differing() const { return differing_; }
+
+  /// Traces all rays; how many are occluded.
+  [[nodiscard]] std::size_t run() const
+  {
+    std::size_t occluded = 0;
+    for (const RTCRay& ray : rays_)
+    {
+      occluded += isOccluded(ray);
+    }
+    return occluded;
+  }
+
+private:
+  [[nodiscard]] static RTCRay query(const po::TexelRay& ray)
+  {
+    constexpr float Epsilon = 1e-3f;
+    const po::Vec3f direction = ray.direction.as<float>();
+    return { ray.origin.x, ray.origin.y, ray.origin.z, Epsilon, direction.x, direction.y,
+      direction.z, 0, std::numeric_limits<float>::infinity(), 0xFFFFFFFFu, 0, 0 };
+  }
+
+  [[nodiscard]] bool isOccluded(RTCRay ray) const
+  {
+    po::RayQueryContext context;
+    po::initRayQueryContext(context, false);
+    po::occluded1(scene_.get(), context, ray);
+    return ray.tfar < 0;
+  }
+
+  [[nodiscard]] static bool bakeSeesHit(const Workload& work, unsigned id, const po::TexelRay& ray)
+  {
+    return work.scene.rays.occluded(
+      ray.origin, ray.direction.as<float>(), std::numeric_limits<float>::infinity(), id);
+  }
+
+  po::DeviceHandle device_;
+  po::SceneHandle scene_;
+  std::vector<RTCRay> rays_;
+  std::size_t differing_ = 0;
+};
+
+void countRays(benchmark::State& state, std::uint64_t rays)
+{
+  state.counters["rays"] = static_cast<double>(rays);
+  state.counters["rays/s"] =
+    benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsIterationInvariantRate);
+}
+
 void bake(benchmark::State& state, const std::string& family)
 {
-  Workload& work = workload(family);
+  const Workload& work = workload(family);
   po::BakeCounters counters;
   for (auto _ : state)
   {
@@ -125,102 +192,118 @@ void bake(benchmark::State& state, const std::string& family)
       work.scene, work.baked, settings(), progress,
       [](const po::RawTextures& raw) { benchmark::DoNotOptimize(raw.values); }, counters);
   }
-  state.counters["rays"] = static_cast<double>(counters.rays);
-  state.counters["rays/s"] = benchmark::Counter(
-    static_cast<double>(counters.rays), benchmark::Counter::kIsIterationInvariantRate);
+  countRays(state, counters.rays);
 }
 
 void generate(benchmark::State& state, const std::string& family)
 {
-  Workload& work = workload(family);
-  std::vector<Ray> rays;
-  double count = 0;
+  const Workload& work = workload(family);
+  std::uint64_t count = 0;
   for (auto _ : state)
   {
     count = 0;
-    for (const unsigned id : work.baked)
-    {
-      generateRays(work.cloud.spheres[id], id, rays);
-      count += static_cast<double>(rays.size());
-      benchmark::DoNotOptimize(rays.data());
-    }
+    forEachTexel(work,
+      [&](unsigned, const std::vector<po::TexelRay>& rays)
+      {
+        count += rays.size();
+        benchmark::DoNotOptimize(rays.data());
+      });
   }
-  state.counters["rays/s"] =
-    benchmark::Counter(count, benchmark::Counter::kIsIterationInvariantRate);
+  countRays(state, count);
 }
 
 void bare(benchmark::State& state, const std::string& family)
 {
-  Workload& work = workload(family);
-  std::vector<Ray> rays;
-  std::vector<Ray> all;
-  for (const unsigned id : work.baked)
+  static std::map<std::string, std::unique_ptr<BareLoop>> cache;
+  auto& loop = cache[family];
+  if (!loop)
   {
-    po::Overlaps overlaps;
-    work.scene.overlaps.find(id, overlaps);
-    if (overlaps.buried)
-    {
-      continue;
-    }
-    generateRays(work.cloud.spheres[id], id, rays);
-    for (const Ray& ray : rays)
-    {
-      const po::Vec3d n =
-        po::normalized((ray.origin - work.cloud.spheres[id].center()).as<double>());
-      const bool inside = std::any_of(overlaps.caps.begin(), overlaps.caps.end(),
-        [n](const po::BuriedCap& cap) { return po::dot(n, cap.axis) > cap.cosine; });
-      if (!inside)
-      {
-        all.push_back(ray);
-      }
-    }
+    loop = std::make_unique<BareLoop>(workload(family));
   }
-  // A scene of its own, without the filter; a large epsilon keeps rays off their own sphere.
-  const po::DeviceHandle device = po::makeDevice();
-  const po::SceneHandle scene(rtcNewScene(device.get()));
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-    work.cloud.spheres.data(), 0, sizeof(po::Sphere), work.cloud.spheres.size());
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene.get());
-  po::RayQueryContext context;
-  po::initRayQueryContext(context, false);
   std::size_t occluded = 0;
   for (auto _ : state)
   {
-    occluded = 0;
-    for (const Ray& r : all)
+    occluded = loop->run();
+    benchmark::DoNotOptimize(occluded);
+  }
+  countRays(state, loop->size());
+  state.counters["occluded"] = static_cast<double>(occluded) / static_cast<double>(loop->size());
+  state.counters["differing"] = static_cast<double>(loop->differing());
+}
+
+/// Keeps the median CPU times, and prints the table of shares.
+class ShareReporter : public benchmark::ConsoleReporter
+{
+public:
+  void ReportRuns(const std::vector<Run>& runs) override
+  {
+    for (const Run& run : runs)
     {
-      RTCRay ray{ r.origin.x, r.origin.y, r.origin.z, 1e-3f, r.direction.x, r.direction.y,
-        r.direction.z, 0, std::numeric_limits<float>::infinity(), 0xFFFFFFFFu, 0, 0 };
-      po::occluded1(scene.get(), context, ray);
-      occluded += ray.tfar < 0 ? 1 : 0;
+      if (run.run_type == Run::RT_Aggregate && run.aggregate_name == "median")
+      {
+        milliseconds_[run.run_name.function_name] = run.GetAdjustedCPUTime();
+      }
+    }
+    ConsoleReporter::ReportRuns(runs);
+  }
+
+  void printTable() const
+  {
+    std::printf("\n| family | bake, ms | generate | bare Embree | share | ray rate |\n"
+                "| --- | ---: | ---: | ---: | ---: | ---: |\n");
+    for (const char* family : Families)
+    {
+      const double whole = of("Bake", family), rays = of("Generate", family);
+      const double traced = of("Bare", family);
+      if (whole > 0 && rays > 0 && traced > 0)
+      {
+        std::printf("| %s | %.0f | %.0f | %.0f | %.0f %% | %.0f %% |\n", family, whole, rays,
+          traced, 100 * (rays + traced) / whole, 100 * traced / (whole - rays));
+      }
     }
   }
-  state.counters["rays"] = static_cast<double>(all.size());
-  state.counters["rays/s"] = benchmark::Counter(
-    static_cast<double>(all.size()), benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["occluded"] =
-    static_cast<double>(occluded) / static_cast<double>(std::max<std::size_t>(all.size(), 1));
+
+private:
+  [[nodiscard]] double of(const std::string& what, const std::string& family) const
+  {
+    const auto found = milliseconds_.find(what + "/" + family);
+    return found == milliseconds_.end() ? 0 : found->second;
+  }
+
+  std::map<std::string, double> milliseconds_;
+};
+
+void add(const std::string& what, const std::string& family,
+  void (*measure)(benchmark::State&, const std::string&))
+{
+  constexpr int Repetitions = 11;
+  benchmark::RegisterBenchmark((what + "/" + family).c_str(), measure, family)
+    ->Unit(benchmark::kMillisecond)
+    ->Repetitions(Repetitions)
+    ->ReportAggregatesOnly();
 }
 }
 
 int main(int argc, char** argv)
 {
   const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
-  for (const char* name : { "pack", "overlap", "gas", "shell", "foam" })
+  for (const char* family : Families)
   {
-    const std::string family = name;
-    benchmark::RegisterBenchmark(("Bake/" + family).c_str(), bake, family)
-      ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(("Generate/" + family).c_str(), generate, family)
-      ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(("Bare/" + family).c_str(), bare, family)
-      ->Unit(benchmark::kMillisecond);
+    add("Bake", family, bake);
+    add("Generate", family, generate);
+    add("Bare", family, bare);
   }
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
+  std::vector<char*> arguments(argv, argv + argc);
+  std::string shuffled = "--benchmark_enable_random_interleaving=true";
+  arguments.insert(arguments.begin() + 1, shuffled.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data()))
+  {
+    return 1;
+  }
+  ShareReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  reporter.printTable();
   return 0;
 }
