@@ -9,7 +9,7 @@
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <vtkActor.h>
-#include <vtkCamera.h>
+#include <vtkErrorCode.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -24,12 +24,19 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 
 namespace
 {
-void savePicture(vtkRenderWindow* window, const char* fileName)
+/// False, with a message, if the file cannot be written.
+bool savePicture(vtkRenderWindow* window, const char* fileName)
 {
+  if (!std::ofstream(fileName, std::ios::app)) // vtkPNGWriter does not report all that can go wrong
+  {
+    std::cerr << "The picture " << fileName << " cannot be written: check its folder and rights.\n";
+    return false;
+  }
   vtkNew<vtkWindowToImageFilter> grab;
   grab->SetInput(window);
   grab->ReadFrontBufferOff();
@@ -37,6 +44,7 @@ void savePicture(vtkRenderWindow* window, const char* fileName)
   writer->SetInputConnection(grab->GetOutputPort());
   writer->SetFileName(fileName);
   writer->Write();
+  return writer->GetErrorCode() == vtkErrorCode::NoError;
 }
 
 void showWindow(vtkRenderWindow* window)
@@ -52,13 +60,18 @@ void showWindow(vtkRenderWindow* window)
 
 int main(int argc, char* argv[])
 {
-  if (argc < 2)
+  if (argc < 2 || argc > 3)
   {
     std::cerr << "Usage: " << argv[0] << " particles.vtp [picture.png]\n";
     return EXIT_FAILURE;
   }
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(argv[1]);
+  reader->Update();
+  if (reader->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    return EXIT_FAILURE; // the reader has said why
+  }
 
   // Bake. Radii come from the array `radius`, if there is one.
   vtkNew<vtkSphereAmbientOcclusion> bake;
@@ -98,11 +111,8 @@ int main(int argc, char* argv[])
   window->Render();
   if (argc > 2)
   {
-    savePicture(window, argv[2]);
+    return savePicture(window, argv[2]) ? EXIT_SUCCESS : EXIT_FAILURE;
   }
-  else
-  {
-    showWindow(window);
-  }
+  showWindow(window);
   return EXIT_SUCCESS;
 }

@@ -6,9 +6,10 @@
 ///
 ///   BenchmarkTables [COUNT] [FILE.vtp ...]
 ///
-/// COUNT spheres [20,000] of each synthetic family, then the files. Pictures have 500 x 500 pixels,
-/// one ray a pixel. The camera turns between frames, so that every frame is traced; the median of
-/// 15 counts.
+/// COUNT spheres [50,000] of each synthetic family, then the files. Pictures have 500 x 500 pixels,
+/// one ray a pixel. The camera turns between frames, so that every frame is traced; all ways to
+/// draw take turns at each view, so that load from outside falls on all alike, and the median of 45
+/// frames counts.
 
 #include "SyntheticSpheres.h"
 
@@ -18,6 +19,7 @@
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
+#include "vtkErrorCode.h"
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -36,12 +38,15 @@
 #include <ctime>
 #include <iomanip>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace
 {
-constexpr int Frames = 15;
+constexpr int Frames = 45;
+constexpr std::size_t DefaultCount = 50000;
 constexpr double DegreesPerFrame = 3;
 
 struct DataSet
@@ -84,14 +89,27 @@ DataSet synthetic(const std::string& family, std::size_t count)
   return data;
 }
 
+/// Throws std::runtime_error if there are no particles to be had.
 DataSet fromFile(const std::string& path)
 {
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
+  if (reader->GetErrorCode() != vtkErrorCode::NoError ||
+    reader->GetOutput()->GetNumberOfPoints() == 0)
+  {
+    throw std::runtime_error("No particles could be read from " + path + ".");
+  }
   const std::size_t slash = path.find_last_of('/');
   return { slash == std::string::npos ? path : path.substr(slash + 1), reader->GetOutput() };
 }
+
+/// A way to draw the particles.
+struct Way
+{
+  int shading;
+  bool lines;
+};
 
 /// A window with the baked particles, and what can be switched in it.
 struct Scene
@@ -111,26 +129,43 @@ struct Scene
     renderer->ResetCamera();
   }
 
-  /// Median over frames of a turning camera, in frames per second.
-  double frameRate(int shading, bool lines)
+  /// Seconds for one frame of the current view, drawn in one way.
+  double draw(const Way& way)
   {
-    mapper->SetShadingMode(shading);
-    silhouettes->SetLineVisibility(lines);
-    window->Render(); // nothing is built or allocated in the frames that count
-    std::vector<double> seconds;
+    // Nothing of the frame before is kept: a hair's breadth is another view.
+    renderer->GetActiveCamera()->Azimuth(1e-3);
+    mapper->SetShadingMode(way.shading);
+    silhouettes->SetLineVisibility(way.lines);
+    const auto start = std::chrono::steady_clock::now();
+    window->Render();
+    vtkNew<vtkUnsignedCharArray> pixel;
+    window->GetPixelData(0, 0, 0, 0, 0, pixel); // waits for the picture
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  /// Median frames per second of each way.
+  std::vector<double> frameRates(const std::vector<Way>& ways)
+  {
+    std::vector<std::vector<double>> seconds(ways.size());
+    for (const Way& way : ways)
+    {
+      draw(way); // nothing is built or allocated in the frames that count
+    }
     for (int frame = 0; frame < Frames; ++frame)
     {
       renderer->GetActiveCamera()->Azimuth(DegreesPerFrame);
-      const auto start = std::chrono::steady_clock::now();
-      window->Render();
-      vtkNew<vtkUnsignedCharArray> pixel;
-      window->GetPixelData(0, 0, 0, 0, 0, pixel); // waits for the picture
-      seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      for (std::size_t i = 0; i < ways.size(); ++i)
+      {
+        seconds[i].push_back(draw(ways[i]));
+      }
     }
-    std::nth_element(seconds.begin(), seconds.begin() + Frames / 2, seconds.end());
-    renderer->GetActiveCamera()->Azimuth(-DegreesPerFrame * Frames);
-    return 1 / seconds[Frames / 2];
+    std::vector<double> rates;
+    for (std::vector<double>& times : seconds)
+    {
+      std::nth_element(times.begin(), times.begin() + Frames / 2, times.end());
+      rates.push_back(1 / times[Frames / 2]);
+    }
+    return rates;
   }
 
   vtkNew<vtkRayTracedSphereMapper> mapper;
@@ -164,10 +199,14 @@ Row measure(const DataSet& data)
   row.bytes = bake->GetNumberOfTextureBytes();
 
   Scene scene(vtkPolyData::SafeDownCast(bake->GetOutput()));
-  row.direct = scene.frameRate(vtkRayTracedSphereMapper::DIRECT_LIGHT, false);
-  row.both = scene.frameRate(vtkRayTracedSphereMapper::BOTH, false);
-  row.texturesOnly = scene.frameRate(vtkRayTracedSphereMapper::AMBIENT_OCCLUSION, false);
-  row.silhouettes = scene.frameRate(vtkRayTracedSphereMapper::BOTH, true);
+  const std::vector<double> rates = scene.frameRates(
+    { { vtkRayTracedSphereMapper::DIRECT_LIGHT, false }, { vtkRayTracedSphereMapper::BOTH, false },
+      { vtkRayTracedSphereMapper::AMBIENT_OCCLUSION, false },
+      { vtkRayTracedSphereMapper::BOTH, true } });
+  row.direct = rates[0];
+  row.both = rates[1];
+  row.texturesOnly = rates[2];
+  row.silhouettes = rates[3];
   return row;
 }
 
@@ -205,27 +244,68 @@ void printFrames(const std::vector<Row>& rows)
               << percentSlower(row.silhouettes, row.both) << " % |\n";
   }
 }
+
+/// The argument as a count of spheres; throws std::runtime_error if it is none.
+std::size_t parseCount(const std::string& text)
+{
+  constexpr std::size_t Limit = 100'000'000;
+  const bool digits =
+    !text.empty() && text.size() <= 9 && text.find_first_not_of("0123456789") == std::string::npos;
+  const std::size_t count = digits ? std::stoul(text) : 0;
+  if (count < 1 || count > Limit)
+  {
+    throw std::runtime_error(
+      "COUNT must be a whole number from 1 to " + std::to_string(Limit) + ", not '" + text + "'.");
+  }
+  return count;
 }
 
-int main(int argc, char* argv[])
+bool isFileName(const std::string& argument)
 {
-  const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 20000;
-  if (count == 0)
+  const std::string end = ".vtp";
+  return argument.size() > end.size() && argument.substr(argument.size() - end.size()) == end;
+}
+
+void printTables(const std::vector<std::string>& arguments)
+{
+  const bool counted = !arguments.empty() && !isFileName(arguments.front());
+  const std::size_t count = counted ? parseCount(arguments.front()) : DefaultCount;
+  std::vector<DataSet> files; // all are read first: a wrong name is reported at once
+  for (std::size_t i = counted ? 1 : 0; i < arguments.size(); ++i)
   {
-    std::cerr << "Usage: " << argv[0] << " [COUNT] [FILE.vtp ...]\n";
-    return EXIT_FAILURE;
+    files.push_back(fromFile(arguments[i]));
   }
   std::vector<Row> rows;
   for (const char* family : { "pack", "overlap", "gas", "shell", "foam" })
   {
     rows.push_back(measure(synthetic(family, count)));
   }
-  for (int i = 2; i < argc; ++i)
+  for (const DataSet& file : files)
   {
-    rows.push_back(measure(fromFile(argv[i])));
+    rows.push_back(measure(file));
   }
   std::cout << std::fixed;
   printBakes(rows);
   printFrames(rows);
+}
+}
+
+int main(int argc, char* argv[])
+{
+  try
+  {
+    printTables({ argv + 1, argv + argc });
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << argv[0] << ": there is not enough memory for so many spheres.\n";
+    return EXIT_FAILURE;
+  }
+  catch (const std::exception& problem)
+  {
+    std::cerr << argv[0] << ": " << problem.what() << "\nUsage: " << argv[0]
+              << " [COUNT] [FILE.vtp ...]\n";
+    return EXIT_FAILURE;
+  }
   return EXIT_SUCCESS;
 }
