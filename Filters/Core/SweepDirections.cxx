@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepDirections.h"
 
+#include "Constants.h"
 #include "Random.h"
 #include "Sampling.h"
 
@@ -10,8 +11,6 @@ namespace po
 {
 namespace
 {
-constexpr double Pi = 3.14159265358979323846;
-
 /// A rotation matrix by its columns.
 struct Rotation
 {
