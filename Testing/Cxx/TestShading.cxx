@@ -236,4 +236,23 @@ TEST_F(ShadedSphere, ParticleColoursReplaceBothColours)
   m.particleColors = green;
   EXPECT_EQ(middle(none, m), (std::array<int, 3>{ 0, 200, 0 }));
 }
+
+TEST_F(ShadedSphere, IsTheSameAtAnyScaleOfTheWorld)
+{
+  Material m;
+  m.mode = ShadingMode::DirectLight;
+  m.diffuse = 0.5;
+  m.specular = 0.3;
+  m.specularPower = 5;
+  lights.front().direction = normalized(Vec3d{ 1, -2, -2 });
+  const std::array<int, 3> expected = middle(none, m);
+  EXPECT_GT(expected[0], 85) << "0.5 x 2/3 of 255 is diffuse, the rest a highlight";
+  for (const double s : { 1e-30, 1e-12, 1e12, 1e30 })
+  {
+    const Matrix4 scaled{ s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1 };
+    rays = *PrimaryRays::make(lookAtOrigin(false, 10 * s, 0.5 * s, 3, 3, s, 20 * s), scaled);
+    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, frame);
+    EXPECT_EQ(middle(none, m), expected) << s;
+  }
+}
 }
