@@ -76,9 +76,10 @@ public:
       masks_.push_back(masked ? input.shadows.lit[i].data() : nullptr);
       needsPoint_ = needsPoint_ || input.lights[i].positional;
     }
+    const double scale = 1 / largestEntry();
     for (std::size_t i = 0; i < toLocal_.size(); ++i)
     {
-      toLocal_[i] = static_cast<float>(input.rays.worldToLocal()[i] / largestEntry());
+      toLocal_[i] = static_cast<float>(scale * input.rays.worldToLocal()[4 * (i / 3) + i % 3]);
     }
   }
 
@@ -125,8 +126,8 @@ private:
   [[nodiscard]] Vec3f normalInWorld(Vec3f n) const
   {
     const auto& m = toLocal_;
-    return normalized(Vec3f{ n.x * m[0] + n.y * m[4] + n.z * m[8],
-      n.x * m[1] + n.y * m[5] + n.z * m[9], n.x * m[2] + n.y * m[6] + n.z * m[10] });
+    return normalized(Vec3f{ n.x * m[0] + n.y * m[3] + n.z * m[6],
+      n.x * m[1] + n.y * m[4] + n.z * m[7], n.x * m[2] + n.y * m[5] + n.z * m[8] });
   }
 
   [[nodiscard]] DirectLight gather(int x, int y, std::size_t pixel) const
@@ -172,7 +173,7 @@ private:
 
   const ShadingInput& in_;
   std::vector<const std::uint8_t*> masks_; ///< of each light, or null: it reaches all pixels
-  std::array<float, 12> toLocal_{};        ///< rows of worldToLocal, scaled
+  std::array<float, 9> toLocal_{};         ///< linear part of worldToLocal, by rows, scaled
   bool needsPoint_ = false;
   bool needsView_;
 };
