@@ -8,9 +8,10 @@ namespace po
 {
 namespace
 {
-constexpr float CellWidth = 1;    ///< in reaches
+constexpr float CellWidth = 2;    ///< in reaches
 constexpr float MostCells = 64;   ///< along a side
-constexpr float WideOccluder = 8; ///< radius in cells from which on an occluder is wide
+constexpr float WideOccluder = 4; ///< radius in cells from which on an occluder is wide
+constexpr float Infinity = HUGE_VALF;
 }
 
 void OccluderCells::begin(const DepthTile& tile, float reach)
@@ -21,30 +22,53 @@ void OccluderCells::begin(const DepthTile& tile, float reach)
   lowX_ = tile.x - 2 * reach;
   lowY_ = tile.y - 2 * reach;
   cell_ = std::max(CellWidth * reach, width / MostCells);
+  perCell_ = 1 / cell_;
   side_ = static_cast<int>(std::ceil(width / cell_));
-  const auto count = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_);
-  cells_.resize(std::max(cells_.size(), count));
-  std::for_each(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(count),
-    [](std::vector<Entry>& cell) { cell.clear(); });
-  wide_.clear();
+  heads_.assign(
+    static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), OccluderList::Empty);
+  wide_ = OccluderList::Empty;
+  used_ = 0;
 }
 
 int OccluderCells::cellIndex(float offset) const
 {
-  return std::clamp(static_cast<int>(offset / cell_), 0, side_ - 1);
+  return std::clamp(static_cast<int>(offset * perCell_), 0, side_ - 1);
+}
+
+void OccluderCells::append(int& head, const ProjectedSphere& sphere)
+{
+  if (head == OccluderList::Empty ||
+    chunks_[static_cast<std::size_t>(head)].count == OccluderChunk::Size)
+  {
+    if (used_ == chunks_.size())
+    {
+      chunks_.resize(std::max<std::size_t>(64, 2 * used_));
+    }
+    OccluderChunk& chunk = chunks_[used_];
+    chunk.x.fill(Infinity);
+    chunk.y.fill(Infinity);
+    chunk.count = 0;
+    chunk.next = head;
+    head = static_cast<int>(used_++);
+  }
+  OccluderChunk& chunk = chunks_[static_cast<std::size_t>(head)];
+  chunk.x[chunk.count] = sphere.x;
+  chunk.y[chunk.count] = sphere.y;
+  chunk.z[chunk.count] = sphere.z;
+  chunk.radius[chunk.count] = sphere.radius;
+  ++chunk.count;
 }
 
 void OccluderCells::insert(const ProjectedSphere& sphere)
 {
-  const Entry entry{ sphere.x, sphere.y, sphere.z, sphere.radius };
   if (sphere.radius > WideOccluder * cell_)
   {
-    wide_.push_back(entry);
+    append(wide_, sphere);
     return;
   }
   const float x = sphere.x - lowX_;
   const float y = sphere.y - lowY_;
-  const float reach = (sphere.radius + reach_) * (1 + 1e-5f);
+  const float reach = (sphere.radius + reach_) * (1 + 1e-5f) + cell_ * 1e-5f;
   const int left = cellIndex(x - reach);
   const int right = cellIndex(x + reach);
   const int bottom = cellIndex(y - reach);
@@ -53,8 +77,8 @@ void OccluderCells::insert(const ProjectedSphere& sphere)
   // outermost cell, which therefore counts as endless.
   const auto gap = [this](float position, int cell)
   {
-    const float low = cell == 0 ? -HUGE_VALF : static_cast<float>(cell) * cell_;
-    const float high = cell == side_ - 1 ? HUGE_VALF : static_cast<float>(cell + 1) * cell_;
+    const float low = cell == 0 ? -Infinity : static_cast<float>(cell) * cell_;
+    const float high = cell == side_ - 1 ? Infinity : static_cast<float>(cell + 1) * cell_;
     return std::max({ low - position, position - high, 0.0f });
   };
   for (int row = bottom; row <= top; ++row)
@@ -65,7 +89,7 @@ void OccluderCells::insert(const ProjectedSphere& sphere)
       const float gapX = gap(x, column);
       if (gapX * gapX + gapY * gapY <= reach * reach)
       {
-        cells_[static_cast<std::size_t>(row * side_ + column)].push_back(entry);
+        append(heads_[static_cast<std::size_t>(row * side_ + column)], sphere);
       }
     }
   }

@@ -3,6 +3,7 @@
 #define po_OccluderCells_h
 
 #include "DepthTiles.h"
+#include "OccluderList.h"
 
 #include <vector>
 
@@ -16,11 +17,6 @@ namespace po
 class OccluderCells
 {
 public:
-  struct Entry
-  {
-    float x, y, z, radius;
-  };
-
   /// Empties the cells and lays them over a tile.
   /// @param reach the largest radius of a receiver
   void begin(const DepthTile& tile, float reach);
@@ -28,19 +24,23 @@ public:
   /// Occluders come from the light downward.
   void insert(const ProjectedSphere& sphere);
 
-  [[nodiscard]] const std::vector<Entry>& cellOf(const ProjectedSphere& receiver) const
+  [[nodiscard]] OccluderList cellOf(const ProjectedSphere& receiver) const
   {
-    return cells_[static_cast<std::size_t>(
-      cellIndex(receiver.y - lowY_) * side_ + cellIndex(receiver.x - lowX_))];
+    return { chunks_.data(),
+      heads_[static_cast<std::size_t>(
+        cellIndex(receiver.y - lowY_) * side_ + cellIndex(receiver.x - lowX_))] };
   }
-  [[nodiscard]] const std::vector<Entry>& wide() const { return wide_; }
+  [[nodiscard]] OccluderList wide() const { return { chunks_.data(), wide_ }; }
 
 private:
   [[nodiscard]] int cellIndex(float offset) const;
+  void append(int& head, const ProjectedSphere& sphere);
 
-  std::vector<std::vector<Entry>> cells_;
-  std::vector<Entry> wide_;
-  float lowX_ = 0, lowY_ = 0, cell_ = 1, reach_ = 0;
+  std::vector<OccluderChunk> chunks_;
+  std::size_t used_ = 0;   ///< chunks in use
+  std::vector<int> heads_; ///< by cell
+  int wide_ = OccluderList::Empty;
+  float lowX_ = 0, lowY_ = 0, cell_ = 1, perCell_ = 1, reach_ = 0;
   int side_ = 0; ///< cells along each side
 };
 }

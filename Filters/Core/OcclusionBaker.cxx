@@ -123,6 +123,9 @@ void BakeCounters::add(const BakeCounters& other)
   particlesBuried += other.particlesBuried;
   particlesDark += other.particlesDark;
   texturesStored += other.texturesStored;
+  spheresClosed += other.spheresClosed;
+  spheresNeverSeen += other.spheresNeverSeen;
+  directionsBlack += other.directionsBlack;
 }
 
 double bakeMemory(

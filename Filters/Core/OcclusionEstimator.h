@@ -28,15 +28,18 @@ struct BakeScene
 /// What was done and what could be skipped.
 struct BakeCounters
 {
-  std::uint64_t particles = 0;       ///< particles baked
-  std::uint64_t texels = 0;          ///< their texels
-  std::uint64_t rays = 0;            ///< occlusion rays traced
-  std::uint64_t samplesInside = 0;   ///< samples inside another sphere: no ray, no weight
-  std::uint64_t texelsInside = 0;    ///< texels wholly inside another sphere: not sampled at all
-  std::uint64_t particlesBuried = 0; ///< particles inside one other sphere: not looked at further
-  std::uint64_t particlesDark = 0;   ///< particles that no light reaches
-  std::uint64_t texturesStored = 0;  ///< rows of the table
-  unsigned threads = 0;              ///< threads that took part
+  std::uint64_t particles = 0;        ///< particles baked
+  std::uint64_t texels = 0;           ///< their texels
+  std::uint64_t rays = 0;             ///< occlusion rays traced
+  std::uint64_t samplesInside = 0;    ///< samples inside another sphere: no ray, no weight
+  std::uint64_t texelsInside = 0;     ///< texels wholly inside another sphere: not sampled at all
+  std::uint64_t particlesBuried = 0;  ///< particles inside one other sphere: not looked at further
+  std::uint64_t particlesDark = 0;    ///< particles that no light reaches
+  std::uint64_t texturesStored = 0;   ///< rows of the table
+  std::uint64_t spheresClosed = 0;    ///< sweep: visits spared by closed cells
+  std::uint64_t spheresNeverSeen = 0; ///< sweep: visits spared as no direction had shown the sphere
+  std::uint64_t directionsBlack = 0;  ///< sweep: directions in which the background is black
+  unsigned threads = 0;               ///< threads that took part
 
   void add(const BakeCounters& other);
 };

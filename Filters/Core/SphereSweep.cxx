@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereSweep.h"
 
+#include "Random.h"
 #include "SweepDirections.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,144 +15,221 @@ namespace po
 {
 namespace
 {
+constexpr std::size_t AxesPerBlock = SweepBlock / 2;
+
 /// Directions between two changes of the points in the texels: each point serves four of them.
 constexpr int EpochDirections = 4 * static_cast<int>(TexelPatterns::Count);
-static_assert(EpochDirections % SweepBlock == 0);
 
-/// After the first block, spheres that were never visible take part in every eighth direction only.
-/// A sphere that shows in few directions may miss the others up to its first sight: at most about 8
+/// After the first block, spheres that were never seen take part in every eighth direction only. A
+/// sphere that shows in few directions may miss the others up to its first sight: at most about 8
 /// directions' light, 8 / D of what a direction shows of it.
-constexpr std::size_t FullEvery = 8;
+constexpr std::size_t FullEvery = AxesPerBlock;
+
+/// Closed cells must spare this share of all visits, or they cost more than they save.
+constexpr double WorthwhileShare = 0.15;
+
+bool equalRadii(const SweepScene::Octave& octave)
+{
+  return octave.largestRadius <= octave.smallestRadius * (1 + 1e-6f);
+}
 }
 
-SphereSweep::SphereSweep(
-  const BakeScene& scene, const Background& background, float distance, VisibilityRecords& records)
+SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, float distance,
+  VisibilityRecords& records, const SweepSkips& skips)
   : scene_(scene)
   , background_(background)
   , distance_(distance)
   , records_(records)
-  , octaves_(scene.rays.spheres())
-  , everVisible_(scene.rays.spheres().size())
-  , workspaces_([&records] { return Workspace(records); })
+  , skips_(skips)
+  , useClosedCells_(skips.closedCells && !std::isfinite(distance))
+  , everSeen_(scene.size())
+  , tileSweeps_([&records] { return TileWorkspace(records); })
 {
 }
 
-void SphereSweep::run(const std::vector<Vec3d>& directions, Progress& progress)
+void SphereSweep::run(const std::vector<Vec3d>& axes, Progress& progress)
 {
-  std::vector<Direction> block;
-  for (std::size_t i = 0; i < directions.size() && !progress.aborted(); ++i)
+  for (std::size_t first = 0; first < axes.size() && !progress.aborted(); first += AxesPerBlock)
   {
-    const double light = luminance(background_, directions[i]);
-    if (light > 0)
-    {
-      block.push_back({ directions[i], light });
-    }
-    else
-    {
-      progress.advance(scene_.rays.spheres().size());
-    }
-    if (block.size() == SweepBlock || (i + 1 == directions.size() && !block.empty()))
-    {
-      sweepBlock(block, progress);
-      block.clear();
-    }
+    const std::size_t last = std::min(first + AxesPerBlock, axes.size());
+    sweepBlock({ axes.begin() + static_cast<std::ptrdiff_t>(first),
+                 axes.begin() + static_cast<std::ptrdiff_t>(last) },
+      progress);
   }
 }
 
-void SphereSweep::sweepBlock(const std::vector<Direction>& block, Progress& progress)
+void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
 {
-  if (directions_ > 0 && directions_ % EpochDirections == 0)
+  for (; epoch_ < directions_ / EpochDirections; ++epoch_)
   {
     records_.nextEpoch();
   }
-  std::vector<std::size_t> patterns;
   std::vector<FacingTexels> facing;
-  for (std::size_t i = 0; i < block.size(); ++i)
+  std::vector<std::size_t> patterns;
+  facing.reserve(SweepBlock); // jobs refer to them
+  std::vector<AxisJob> jobs;
+  for (std::size_t i = 0; i < axes.size(); ++i)
   {
-    patterns.push_back((static_cast<std::size_t>(directions_) + i) % TexelPatterns::Count);
-    facing.emplace_back(records_.texels(), records_.patterns(), patterns[i], block[i].towardsLight,
-      block[i].luminance);
-  }
-  tbb::parallel_for(std::size_t(0), block.size(),
-    [&](std::size_t i)
+    const bool full = blocks_ == 0 || i % FullEvery == 0 || std::isfinite(distance_);
+    jobs.push_back({ axes[i], planeBasis(axes[i]), {}, full || !skips_.neverSeen });
+    for (const bool upward : { true, false })
     {
-      const bool full = directions_ == 0 || i % FullEvery == 0 || std::isfinite(distance_);
-      sweepDirection(
-        block[i].towardsLight, { facing[i], patterns[i], i, distance_ }, full, progress);
-    });
+      const Vec3d towardsLight = upward ? axes[i] : -axes[i];
+      const double light = luminance(background_, towardsLight);
+      const std::size_t pattern =
+        (static_cast<std::size_t>(directions_) + 2 * i + (upward ? 0 : 1)) % TexelPatterns::Count;
+      if (light <= 0 && skips_.blackSky)
+      {
+        ++blackDirections_;
+        progress.advance(scene_.size());
+        continue;
+      }
+      facing.emplace_back(
+        records_.texels(), records_.patterns(), pattern, jobs.back().basis, towardsLight, light);
+      jobs.back().directions.push_back(
+        { facing.back(), nullptr, pattern, patterns.size(), distance_, upward, useClosedCells_ });
+      patterns.push_back(pattern);
+    }
+  }
+  tbb::parallel_for(
+    std::size_t(0), jobs.size(), [&](std::size_t i) { sweepAxis(jobs[i], progress); });
   if (progress.aborted())
   {
     return;
   }
-  const std::size_t subset = static_cast<std::size_t>(directions_) / SweepBlock % SweepSubsets;
-  records_.addBlock(facing, patterns, subset);
-  visible_.clear();
-  for (unsigned id = 0; id < everVisible_.size(); ++id)
+  records_.addBlock(facing, patterns, blocks_ % SweepSubsets);
+  for (const AxisJob& job : jobs)
   {
-    if (everVisible_[id].load(std::memory_order_relaxed) != 0)
-    {
-      visible_.push_back(id);
-    }
+    neverSeen_ += job.full ? 0 : job.directions.size() * (scene_.size() - seen_.size());
   }
-  directions_ += static_cast<int>(block.size());
+  directions_ += static_cast<int>(2 * axes.size());
+  ++blocks_;
+  finishBlock();
 }
 
-void SphereSweep::project(Vec3d towardsLight, bool full, Workspace& work)
+void SphereSweep::finishBlock()
 {
-  const PlaneBasis basis = planeBasis(towardsLight);
-  const std::vector<Sphere>& spheres = scene_.rays.spheres();
-  work.projected.clear();
-  const auto add = [&](unsigned id)
+  seen_.clear();
+  for (unsigned i = 0; i < everSeen_.size(); ++i)
   {
-    const Sphere& s = spheres[id];
-    const Vec3d c = s.center().as<double>();
-    work.projected.push_back(
-      { static_cast<float>(dot(c, basis.x)), static_cast<float>(dot(c, basis.y)),
-        static_cast<float>(dot(c, towardsLight)), s.radius, id });
-  };
-  if (full)
-  {
-    for (unsigned id = 0; id < spheres.size(); ++id)
+    if (everSeen_[i].load(std::memory_order_relaxed) != 0)
     {
-      add(id);
+      seen_.push_back(i);
+    }
+  }
+  if (blocks_ == 1)
+  {
+    const SweepCounters sum = counters();
+    const auto spared = static_cast<double>(sum.closed + sum.below);
+    useClosedCells_ =
+      useClosedCells_ && spared > WorthwhileShare * static_cast<double>(sum.visits + sum.below);
+  }
+}
+
+SweepCounters SphereSweep::counters() const
+{
+  SweepCounters sum;
+  for (const TileWorkspace& work : tileSweeps_)
+  {
+    sum.add(work.sweep.counters());
+  }
+  return sum;
+}
+
+void SphereSweep::project(const AxisJob& job, std::vector<ProjectedSphere>& projected) const
+{
+  const auto add = [&](unsigned index)
+  {
+    const Sphere& s = scene_.sphere(index);
+    const Vec3d c = s.center().as<double>();
+    projected.push_back(
+      { static_cast<float>(dot(c, job.basis.x)), static_cast<float>(dot(c, job.basis.y)),
+        static_cast<float>(dot(c, job.axis)), s.radius, index });
+  };
+  projected.clear();
+  projected.reserve(scene_.size());
+  if (job.full)
+  {
+    for (unsigned index = 0; index < scene_.size(); ++index)
+    {
+      add(index);
     }
   }
   else
   {
-    std::for_each(visible_.begin(), visible_.end(), add);
+    std::for_each(seen_.begin(), seen_.end(), add);
   }
 }
 
-void SphereSweep::sweepDirection(
-  Vec3d towardsLight, const SweptDirection& direction, bool full, Progress& progress)
+void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const
 {
+  Random random(mixBits(static_cast<std::uint64_t>(directions_)), job.directions.front().index, 0);
+  for (std::size_t i = 0; i < job.directions.size(); ++i)
+  {
+    const auto shiftX = static_cast<float>(random.uniform());
+    const auto shiftY = static_cast<float>(random.uniform());
+    work.offsetMasks[i].build(job.directions[i].facing, shiftX, shiftY);
+    job.directions[i].offsetMasks = &work.offsetMasks[i];
+  }
+}
+
+void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
+{
+  if (job.directions.empty())
+  {
+    return;
+  }
   Workspace& work = workspaces_.local();
-  project(towardsLight, full, work);
-  work.hidden.assign(everVisible_.size(), 0);
-  std::uint64_t reported = 0;
-  for (std::size_t octave = 0; octave < octaves_.size(); ++octave)
+  project(job, work.projected);
+  work.seen.assign(scene_.size(), 0);
+  if (skips_.offsetMasks && scene_.octaves().size() == 1 && equalRadii(scene_.octaves().front()) &&
+    OffsetMasks::fits(records_.texels()) && !std::isfinite(distance_))
   {
-    work.tiles.build(work.projected, octaves_, octave, work.hidden);
-    for (std::size_t i = 0; i < work.tiles.size(); ++i)
+    buildOffsetMasks(job, work);
+  }
+  for (const SweepScene::Octave& octave : scene_.octaves())
+  {
+    sweepOctave(octave, job, work, progress);
+    if (progress.aborted())
     {
-      const DepthTile tile = work.tiles.tile(i);
-      work.tileSweep.run(tile, octaves_.largestRadius(octave), direction, work.hidden);
-      const auto receivers = static_cast<std::uint64_t>(std::count_if(
-        tile.first, tile.last, [](const TileSphere& s) { return s.role == TileRole::Receiver; }));
-      reported += receivers;
-      if (!progress.advance(receivers))
-      {
-        return;
-      }
+      return;
     }
   }
-  for (const ProjectedSphere& s : work.projected)
+  for (std::size_t i = 0; i < work.seen.size(); ++i)
   {
-    if (work.hidden[s.id] == 0)
+    if (work.seen[i] != 0)
     {
-      everVisible_[s.id].store(1, std::memory_order_relaxed);
+      everSeen_[i].store(1, std::memory_order_relaxed);
     }
   }
-  progress.advance(everVisible_.size() - reported); // those that were skipped
+  progress.advance(job.directions.size() * (scene_.size() - work.projected.size()));
+}
+
+void SphereSweep::sweepOctave(
+  const SweepScene::Octave& octave, const AxisJob& job, Workspace& work, Progress& progress)
+{
+  const bool bounded = std::isfinite(distance_);
+  work.tiles.build(work.projected, octave,
+    [&](unsigned index) { return !bounded && index < octave.first && work.seen[index] == 0; });
+  const auto sweepTile = [&](std::size_t index)
+  {
+    const DepthTile tile = work.tiles.tile(index);
+    if (tile.size() == 0 || progress.aborted())
+    {
+      return;
+    }
+    TileWorkspace& tileWork = tileSweeps_.local();
+    tileWork.order.begin(tile);
+    for (const SweptDirection& direction : job.directions)
+    {
+      tileWork.sweep.run(tile, tileWork.order, octave, direction, work.seen);
+    }
+    const auto receivers = static_cast<std::uint64_t>(std::count_if(
+      tile.first, tile.last, [](const TileSphere& s) { return s.role == TileRole::Receiver; }));
+    progress.advance(receivers * job.directions.size());
+  };
+  // A thread that waits for tiles must not begin another axis in the same workspace.
+  tbb::this_task_arena::isolate(
+    [&] { tbb::parallel_for(std::size_t(0), work.tiles.size(), sweepTile); });
 }
 }

@@ -13,58 +13,90 @@
 
 namespace po
 {
+/// What a sweep may leave out. Everything is on but for measurements.
+struct SweepSkips
+{
+  bool closedCells = true; ///< spheres under cells that one occluder closes
+  bool neverSeen = true;   ///< spheres that no direction has shown, in seven of eight directions
+  bool offsetMasks = true; ///< tests of equal spheres against each other
+  bool blackSky = true;    ///< directions that the background makes black
+};
+
 /// Sweeps a scene along given directions and sums what is seen in records.
 class SphereSweep
 {
 public:
   /// @param distance light is blocked within it: local, infinite when unbounded
-  SphereSweep(const BakeScene& scene, const Background& background, float distance,
-    VisibilityRecords& records);
+  SphereSweep(const SweepScene& scene, const Background& background, float distance,
+    VisibilityRecords& records, const SweepSkips& skips);
 
-  /// Goes on with more directions, skipping those that the background makes black. Returns early
-  /// when `progress` says so. A unit of progress is one sphere in one direction.
-  void run(const std::vector<Vec3d>& directions, Progress& progress);
+  /// Goes on with more axes: the directions along them and their opposites. Returns early when
+  /// `progress` says so. A unit of progress is one sphere in one direction.
+  void run(const std::vector<Vec3d>& axes, Progress& progress);
 
+  /// Directions so far, those that the background makes black included.
   [[nodiscard]] int directions() const { return directions_; }
-  [[nodiscard]] std::uint64_t spheresSkipped() const { return spheresSkipped_; }
-  [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(workspaces_.size()); }
+  [[nodiscard]] SweepCounters counters() const;
+  /// Spheres left out since no direction had shown them, summed over the directions.
+  [[nodiscard]] std::uint64_t neverSeen() const { return neverSeen_; }
+  /// Directions not swept since the background is black there.
+  [[nodiscard]] int blackDirections() const { return blackDirections_; }
+  [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(tileSweeps_.size()); }
 
 private:
-  /// Memory of a thread.
+  /// Two opposite directions of a block.
+  struct AxisJob
+  {
+    Vec3d axis;
+    PlaneBasis basis;
+    std::vector<SweptDirection> directions; ///< one if the background is black in the other
+    bool full;                              ///< all spheres take part
+  };
+
+  /// Memory of an axis that is being swept.
   struct Workspace
   {
-    explicit Workspace(VisibilityRecords& records)
-      : tileSweep(records)
+    std::vector<ProjectedSphere> projected;
+    SeenMarks seen;
+    DepthTiles tiles;
+    std::vector<OffsetMasks> offsetMasks = std::vector<OffsetMasks>(2);
+  };
+
+  /// Memory of a tile that is being swept.
+  struct TileWorkspace
+  {
+    explicit TileWorkspace(VisibilityRecords& records)
+      : sweep(records)
     {
     }
 
-    std::vector<ProjectedSphere> projected;
-    std::vector<std::uint8_t> hidden;
-    DepthTiles tiles;
-    TileSweep tileSweep;
+    DepthOrder order;
+    TileSweep sweep;
   };
 
-  struct Direction
-  {
-    Vec3d towardsLight;
-    double luminance;
-  };
+  void sweepBlock(const std::vector<Vec3d>& axes, Progress& progress);
+  void sweepAxis(AxisJob& job, Progress& progress);
+  void sweepOctave(
+    const SweepScene::Octave& octave, const AxisJob& job, Workspace& work, Progress& progress);
+  void project(const AxisJob& job, std::vector<ProjectedSphere>& projected) const;
+  void buildOffsetMasks(AxisJob& job, Workspace& work) const;
+  void finishBlock();
 
-  void sweepBlock(const std::vector<Direction>& block, Progress& progress);
-  void sweepDirection(
-    Vec3d towardsLight, const SweptDirection& direction, bool full, Progress& progress);
-  void project(Vec3d towardsLight, bool full, Workspace& work);
-
-  const BakeScene& scene_;
+  const SweepScene& scene_;
   const Background& background_;
   float distance_;
   VisibilityRecords& records_;
-  RadiusOctaves octaves_;
-  std::vector<std::atomic<std::uint8_t>> everVisible_;
-  std::vector<unsigned> visible_; ///< the spheres that were ever visible, up to the last block
+  SweepSkips skips_;
+  bool useClosedCells_;
+  std::vector<std::atomic<std::uint8_t>> everSeen_;
+  std::vector<unsigned> seen_; ///< the spheres that were ever seen, up to the last block
   tbb::enumerable_thread_specific<Workspace> workspaces_;
-  int directions_ = 0;
-  std::uint64_t spheresSkipped_ = 0;
+  tbb::enumerable_thread_specific<TileWorkspace> tileSweeps_;
+  std::size_t blocks_ = 0;
+  int epoch_ = 0;
+  int directions_ = 0; ///< black ones too
+  int blackDirections_ = 0;
+  std::uint64_t neverSeen_ = 0;
 };
 }
 

@@ -48,17 +48,18 @@ std::uint32_t scrambledVanDerCorput(std::uint32_t index, int bits, std::uint64_t
   return result;
 }
 
+/// Of a lattice on the upper hemisphere.
 Vec3d fibonacciPoint(std::uint32_t index, int count)
 {
   const double golden = Pi * (3 - std::sqrt(5.0));
-  const double z = 1 - (2.0 * index + 1) / count;
+  const double z = 1 - (index + 0.5) / count;
   const double radius = std::sqrt((1 - z) * (1 + z));
   const double azimuth = std::fmod(golden * index, 2 * Pi);
   return { radius * std::cos(azimuth), radius * std::sin(azimuth), z };
 }
 }
 
-std::vector<Vec3d> sweepDirections(int count, std::uint64_t seed)
+std::vector<Vec3d> sweepAxes(int count, std::uint64_t seed)
 {
   Random random(seed, 0, 0);
   const Rotation rotation = randomRotation(random);
@@ -67,17 +68,17 @@ std::vector<Vec3d> sweepDirections(int count, std::uint64_t seed)
   {
     ++bits;
   }
-  std::vector<Vec3d> directions;
-  directions.reserve(static_cast<std::size_t>(count));
+  std::vector<Vec3d> axes;
+  axes.reserve(static_cast<std::size_t>(count));
   for (std::uint32_t k = 0; k < (std::uint64_t(1) << bits); ++k)
   {
     const std::uint32_t index = scrambledVanDerCorput(k, bits, mixBits(seed + 1));
     if (index < static_cast<std::uint32_t>(count))
     {
-      directions.push_back(normalized(rotation.apply(fibonacciPoint(index, count))));
+      axes.push_back(normalized(rotation.apply(fibonacciPoint(index, count))));
     }
   }
-  return directions;
+  return axes;
 }
 
 PlaneBasis planeBasis(Vec3d direction)

@@ -9,13 +9,15 @@
 
 namespace po
 {
-/// `count` unit vectors spread evenly over the sphere: a spherical Fibonacci lattice (heights in
-/// equal steps, azimuths in steps of the golden angle), turned by a rotation that is uniform over
-/// the seeds.
+/// `count` axes spread evenly over all lines through the origin, each named by one of its two unit
+/// vectors: a spherical Fibonacci lattice on a hemisphere (heights in equal steps, azimuths in
+/// steps of the golden angle), turned by a rotation that is uniform over the seeds. Together with
+/// their opposites they are 2 count directions of which every normal faces half.
 ///
-/// They come in an order whose every prefix is well spread, and so is every aligned run of 2^k: the
-/// heights follow a van der Corput sequence with Owen's nested scrambling.
-[[nodiscard]] std::vector<Vec3d> sweepDirections(int count, std::uint64_t seed);
+/// They come in an order in which the heights of every prefix, and of every aligned run of 2^k, are
+/// spread evenly (a van der Corput sequence with Owen's nested scrambling); the azimuths of a
+/// prefix are no better than random ones.
+[[nodiscard]] std::vector<Vec3d> sweepAxes(int count, std::uint64_t seed);
 
 /// Two unit vectors that complete `direction` to a right-handed orthonormal frame (x, y,
 /// direction).

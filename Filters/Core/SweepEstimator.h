@@ -3,6 +3,7 @@
 #define po_SweepEstimator_h
 
 #include "OcclusionEstimator.h"
+#include "SphereSweep.h"
 
 namespace po
 {
@@ -11,6 +12,7 @@ struct SweepOptions
 {
   int directions = 0;     ///< 0: as many as the settings' samplesPerTexel stand for
   double targetError = 0; ///< above 0: RMS error to reach, with as many directions as that takes
+  SweepSkips skips;
 };
 
 /// What a sweep did to reach its result.

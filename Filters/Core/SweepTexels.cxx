@@ -2,7 +2,6 @@
 #include "SweepTexels.h"
 
 #include "Random.h"
-#include "SweepDirections.h"
 #include "TexelMap.h"
 
 #include <cmath>
@@ -90,32 +89,26 @@ TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std:
 }
 
 FacingTexels::FacingTexels(const SweepTexels& texels, const TexelPatterns& patterns,
-  std::size_t pattern, Vec3d direction, double luminance)
+  std::size_t pattern, const PlaneBasis& basis, Vec3d direction, double luminance)
+  : facing(texels.groups(), 0)
 {
-  const PlaneBasis basis = planeBasis(direction);
-  for (std::size_t g = 0; g < texels.groups(); ++g)
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
-    GroupMask mask = 0;
-    for (std::size_t lane = 0; lane < GroupSize; ++lane)
+    const Vec3d n = patterns.normal(pattern, slot).as<double>();
+    const double height = dot(n, direction);
+    const bool faces = static_cast<float>(height) > 0;
+    GroupMask& mask = facing[slot / GroupSize];
+    mask = static_cast<GroupMask>(mask | (unsigned(faces) << (slot % GroupSize)));
+    u.push_back(static_cast<float>(dot(n, basis.x)));
+    v.push_back(static_cast<float>(dot(n, basis.y)));
+    w.push_back(static_cast<float>(height));
+    weight.push_back(faces ? static_cast<float>(height * luminance) : 0.0f);
+  }
+  for (std::uint32_t g = 0; g < facing.size(); ++g)
+  {
+    if (facing[g] != 0)
     {
-      const Vec3d n = patterns.normal(pattern, g * GroupSize + lane).as<double>();
-      const bool faces = static_cast<float>(dot(n, direction)) > 0;
-      mask = static_cast<GroupMask>(mask | (unsigned(faces) << lane));
-    }
-    if (mask == 0)
-    {
-      continue;
-    }
-    group.push_back(static_cast<std::uint32_t>(g));
-    facing.push_back(mask);
-    for (std::size_t lane = 0; lane < GroupSize; ++lane)
-    {
-      const Vec3d n = patterns.normal(pattern, g * GroupSize + lane).as<double>();
-      const double height = dot(n, direction);
-      u.push_back(static_cast<float>(dot(n, basis.x)));
-      v.push_back(static_cast<float>(dot(n, basis.y)));
-      w.push_back(static_cast<float>(height));
-      weight.push_back(height > 0 ? static_cast<float>(height * luminance) : 0.0f);
+      facingGroups.push_back(g);
     }
   }
 }

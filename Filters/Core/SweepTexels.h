@@ -2,6 +2,7 @@
 #ifndef po_SweepTexels_h
 #define po_SweepTexels_h
 
+#include "SweepDirections.h"
 #include "Vec3.h"
 
 #include <cstddef>
@@ -87,19 +88,19 @@ struct TexelPatterns
 };
 
 /// The texels whose points face a direction, in the frame of the projection: u and v across, w
-/// towards the light. Only groups with a facing texel are listed; arrays hold GroupSize entries for
-/// each of them.
+/// towards the light. Masks have one entry for each group, arrays one for each slot.
 struct FacingTexels
 {
+  /// @param basis of the projection across; it may serve the opposite direction too
   /// @param luminance of the background in this direction
   FacingTexels(const SweepTexels& texels, const TexelPatterns& patterns, std::size_t pattern,
-    Vec3d direction, double luminance);
+    const PlaneBasis& basis, Vec3d direction, double luminance);
 
-  [[nodiscard]] std::size_t groups() const { return group.size(); }
+  [[nodiscard]] std::size_t groups() const { return facing.size(); }
 
-  std::vector<std::uint32_t> group;   ///< which group of SweepTexels
-  std::vector<GroupMask> facing;      ///< its texels with w > 0
-  std::vector<float> u, v, w, weight; ///< weight = w * luminance, 0 where w <= 0
+  std::vector<std::uint32_t> facingGroups; ///< those with a facing texel
+  std::vector<GroupMask> facing;           ///< the texels with w > 0
+  std::vector<float> u, v, w, weight;      ///< weight = w * luminance, 0 where w <= 0
 };
 }
 

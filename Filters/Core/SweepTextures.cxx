@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepTextures.h"
 
+#include "Constants.h"
 #include "TexelMap.h"
 #include "TexelMask.h"
 
@@ -10,11 +11,6 @@
 
 namespace po
 {
-namespace
-{
-constexpr double SphereArea = 4 * 3.14159265358979323846;
-}
-
 SweepTextures::SweepTextures(const VisibilityRecords& records, const Background& background)
   : records_(records)
 {
@@ -44,25 +40,30 @@ SweepTextures::SweepTextures(const VisibilityRecords& records, const Background&
   }
 }
 
-SweepTextures::FineTexels SweepTextures::fineTexels(const VisibilityRecord& record) const
+SweepTextures::FineTexels SweepTextures::fineTexels(unsigned sphere) const
 {
   const std::size_t slots = records_.texels().slots();
   const std::size_t groups = records_.texels().groups();
   FineTexels fine{ openIrradiance_, std::vector<float>(slots, 1.0f),
-    records_.outsideWeights(record) };
-  if (record.exposure.bits.empty())
+    records_.outsideWeights(sphere) };
+  const CutSphere* cut = records_.cut(sphere);
+  if (cut == nullptr)
   {
     return fine;
   }
   const std::vector<float> ones(slots, 1.0f);
   std::vector<float> points(slots, 0.0f);
   std::vector<float> irradiance(slots, 0.0f);
+  std::array<MaskedTerms, TexelPatterns::Count> counted;
+  std::array<MaskedTerms, TexelPatterns::Count> weighted;
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {
-    const GroupMask* exposed = record.exposure.ofPattern(p, groups);
-    addMasked(groups, exposed, ones.data(), points.data());
-    addMasked(groups, exposed, irradiance_.data() + p * slots, irradiance.data());
+    const GroupMask* exposed = cut->exposure.ofPattern(p, groups);
+    counted[p] = { exposed, ones.data() };
+    weighted[p] = { exposed, irradiance_.data() + p * slots };
   }
+  addMasked(groups, counted.data(), counted.size(), points.data());
+  addMasked(groups, weighted.data(), weighted.size(), irradiance.data());
   for (std::size_t slot = 0; slot < slots; ++slot)
   {
     fine.share[slot] = points[slot] / TexelPatterns::Count;
@@ -111,38 +112,34 @@ void SweepTextures::coarsen(const FineTexels& fine, const float* sums, const flo
   }
 }
 
-void SweepTextures::fill(unsigned particle, float* values, float* shares) const
+void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
 {
   const SweepTexels& texels = records_.texels();
   const int side = texels.resolution() / texels.refinement();
-  const VisibilityRecord* record = records_.find(particle);
-  if (record == nullptr || record->buried)
+  const float* sums = records_.sums(sphere);
+  if (sums == nullptr && records_.cut(sphere) == nullptr)
   {
     std::fill(values, values + side * side, 0.0f);
-    std::fill(shares, shares + side * side, record == nullptr ? 1.0f : 0.0f);
+    std::fill(shares, shares + side * side, records_.isBuried(sphere) ? 0.0f : 1.0f);
     return;
   }
-  const FineTexels fine = fineTexels(*record);
-  coarsen(fine, record->sums.data(), fine.weight.data(), values, shares);
+  const FineTexels fine = fineTexels(sphere);
+  const std::vector<float> dark(sums == nullptr ? texels.slots() : 0, 0.0f);
+  coarsen(fine, sums == nullptr ? dark.data() : sums, fine.weight.data(), values, shares);
 }
 
-SweepTextures::SquaredError SweepTextures::squaredError(unsigned particle) const
+SweepTextures::SquaredError SweepTextures::squaredError(unsigned sphere) const
 {
   const SweepTexels& texels = records_.texels();
   const int side = texels.resolution() / texels.refinement();
   const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  const VisibilityRecord* record = records_.find(particle);
   SquaredError error;
-  if (record == nullptr)
+  if (records_.sums(sphere) == nullptr && records_.cut(sphere) == nullptr)
   {
-    error.area = SphereArea;
+    error.area = records_.isBuried(sphere) ? 0 : 4 * Pi;
     return error;
   }
-  if (record->buried)
-  {
-    return error;
-  }
-  const FineTexels fine = fineTexels(*record);
+  const FineTexels fine = fineTexels(sphere);
   std::vector<float> shares(count);
   std::vector<float> values(SweepSubsets * count);
   std::vector<float> weight(texels.slots());
@@ -155,7 +152,7 @@ SweepTextures::SquaredError SweepTextures::squaredError(unsigned particle) const
       const float total = records_.openWeights().total[slot];
       weight[slot] = total > 0 ? open[slot] * (fine.weight[slot] / total) : 0.0f;
     }
-    coarsen(fine, record->subsetSums.data() + subset * texels.slots(), weight.data(),
+    coarsen(fine, records_.subsetSums(sphere) + subset * texels.slots(), weight.data(),
       values.data() + subset * count, shares.data());
   }
   for (std::size_t i = 0; i < count; ++i)

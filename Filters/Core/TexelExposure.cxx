@@ -88,10 +88,6 @@ TexelExposure exposeTexels(
       }
     }
   }
-  if (exposure.bits == texels.allBits())
-  {
-    exposure = {};
-  }
   return exposure;
 }
 }

@@ -13,7 +13,7 @@ namespace po
 /// Which points of a particle's texels lie outside all other spheres.
 struct TexelExposure
 {
-  /// [TexelPatterns::Count][groups]; no elements at all where every point is outside
+  /// [TexelPatterns::Count][groups]
   std::vector<GroupMask> bits;
 
   [[nodiscard]] const GroupMask* ofPattern(std::size_t pattern, std::size_t groups) const

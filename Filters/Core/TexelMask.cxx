@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelMask.h"
 
+#include <cmath>
+
 // Highway compiles this file once for each instruction set (SSE4, AVX2, AVX-512, NEON, ...) and
 // chooses when it runs. No sum is reordered, so that only fused multiply-adds make a difference.
 #undef HWY_TARGET_INCLUDE
@@ -88,12 +90,11 @@ template <typename Rule>
 bool hideBy(const FacingTexels& facing, const Rule& rule, GroupMask* mask)
 {
   const Floats d;
-  const std::size_t groups = facing.groups();
   const float* u = facing.u.data();
   const float* v = facing.v.data();
   const float* w = facing.w.data();
   unsigned left = 0;
-  for (std::size_t g = 0; g < groups; ++g)
+  for (const std::uint32_t g : facing.facingGroups)
   {
     if (mask[g] == 0)
     {
@@ -122,6 +123,215 @@ bool hideWithin(
   return hideBy(facing, Bounded(Floats(), occluder, distance), mask);
 }
 
+/// The occluders of a chunk, seen from a receiver: which of them meet its disc, and how.
+struct Meeting
+{
+  unsigned near = 0; ///< those right in front, which hide most
+  unsigned far = 0;  ///< the others that meet the disc
+  bool covered = false;
+};
+
+/// In the square of the distance across at which two discs touch.
+constexpr float NearShare = 0.25f;
+
+Meeting meet(const OccluderChunk& chunk, const ProjectedSphere& r)
+{
+  const Floats d;
+  Meeting meeting;
+  const auto radius = hn::Set(d, r.radius);
+  for (std::size_t lane = 0; lane < OccluderChunk::Size; lane += hn::Lanes(d))
+  {
+    const auto dx = hn::Sub(hn::LoadU(d, chunk.x.data() + lane), hn::Set(d, r.x));
+    const auto dy = hn::Sub(hn::LoadU(d, chunk.y.data() + lane), hn::Set(d, r.y));
+    const auto gap = hn::MulAdd(dx, dx, hn::Mul(dy, dy));
+    const auto occluder = hn::LoadU(d, chunk.radius.data() + lane);
+    const auto touch = hn::Add(occluder, radius);
+    const auto square = hn::Mul(touch, touch);
+    const unsigned met = bitsOf(d, hn::Lt(gap, square));
+    if (met == 0)
+    {
+      continue;
+    }
+    const unsigned near = bitsOf(d, hn::Lt(gap, hn::Mul(square, hn::Set(d, NearShare)))) & met;
+    // One whose disc holds the receiver's, and whose centre is above all of it, hides it all.
+    const auto margin = hn::Sub(occluder, radius);
+    const auto height = hn::Sub(hn::LoadU(d, chunk.z.data() + lane), hn::Set(d, r.z));
+    const auto covers = hn::And(hn::And(hn::Gt(margin, hn::Zero(d)), hn::Ge(height, radius)),
+      hn::Lt(gap, hn::Mul(margin, margin)));
+    meeting.covered = meeting.covered || (bitsOf(d, covers) & near) != 0;
+    meeting.near |= near << lane;
+    meeting.far |= (met & ~near) << lane;
+  }
+  return meeting;
+}
+
+Occluder seenFrom(const ProjectedSphere& r, const OccluderChunk& chunk, std::size_t i)
+{
+  const float scale = 1 / r.radius;
+  const float radius = chunk.radius[i] * scale;
+  return { (chunk.x[i] - r.x) * scale, (chunk.y[i] - r.y) * scale, (chunk.z[i] - r.z) * scale,
+    radius * radius };
+}
+
+/// Calls hide(chunk, place) for the bits that are set, until it returns false.
+template <typename Hide>
+bool forEachBit(unsigned bits, const Hide& hide)
+{
+  for (; bits != 0; bits &= bits - 1)
+  {
+    if (!hide(static_cast<std::size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits))))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Spheres right in front hide most: those first, so that hidden receivers are done with soon.
+template <typename Hide>
+bool hideBehindList(OccluderList occluders, const ProjectedSphere& receiver, const Hide& hide)
+{
+  for (const bool near : { true, false })
+  {
+    for (int index = occluders.first; index != OccluderList::Empty;)
+    {
+      const OccluderChunk& chunk = occluders.chunks[index];
+      const Meeting meeting = meet(chunk, receiver);
+      if (!hide(chunk, meeting.covered, near ? meeting.near : meeting.far))
+      {
+        return false;
+      }
+      index = chunk.next;
+    }
+  }
+  return true;
+}
+
+bool behind(const FacingTexels& facing, OccluderList occluders, const ProjectedSphere& receiver,
+  GroupMask* mask)
+{
+  return hideBehindList(occluders, receiver,
+    [&](const OccluderChunk& chunk, bool covered, unsigned bits)
+    {
+      return !covered &&
+        forEachBit(
+          bits, [&](std::size_t i) { return hide(facing, seenFrom(receiver, chunk, i), mask); });
+    });
+}
+
+bool behindWithin(const FacingTexels& facing, OccluderList occluders,
+  const ProjectedSphere& receiver, float distance, GroupMask* mask)
+{
+  const float scaled = distance / receiver.radius;
+  return hideBehindList(occluders, receiver,
+    [&](const OccluderChunk& chunk, bool, unsigned bits)
+    {
+      return forEachBit(bits,
+        [&](std::size_t i)
+        {
+          const Occluder occluder = seenFrom(receiver, chunk, i);
+          const float lowest = occluder.height - std::sqrt(occluder.squaredRadius) - 1;
+          return lowest >= scaled || hideWithin(facing, occluder, scaled, mask);
+        });
+    });
+}
+
+using Masks = hn::CappedTag<GroupMask, 16>;
+
+/// mask &= other; false if nothing is left.
+inline bool intersect(std::size_t groups, const GroupMask* other, GroupMask* mask)
+{
+  const Masks d;
+  auto left = hn::Zero(d);
+  std::size_t g = 0;
+  for (; g + hn::Lanes(d) <= groups; g += hn::Lanes(d))
+  {
+    const auto both = hn::And(hn::LoadU(d, mask + g), hn::LoadU(d, other + g));
+    hn::StoreU(both, d, mask + g);
+    left = hn::Or(left, both);
+  }
+  unsigned rest = 0;
+  for (; g < groups; ++g)
+  {
+    mask[g] = static_cast<GroupMask>(mask[g] & other[g]);
+    rest |= mask[g];
+  }
+  return rest != 0 || !hn::AllTrue(d, hn::Eq(left, hn::Zero(d)));
+}
+
+bool behindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
+  const ProjectedSphere& r, GroupMask* mask)
+{
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const std::size_t groups = facing.groups();
+  const float touch = 4 * r.radius * r.radius;
+  const auto scale = hn::Set(d, OffsetMasks::CellsPerRadius / r.radius);
+  const auto originX = hn::Set(d, masks.originX());
+  const auto originY = hn::Set(d, masks.originY());
+  HWY_ALIGN std::int32_t column[OccluderChunk::Size];
+  HWY_ALIGN std::int32_t row[OccluderChunk::Size];
+  for (int index = occluders.first; index != OccluderList::Empty;)
+  {
+    const OccluderChunk& chunk = occluders.chunks[index];
+    unsigned apart = 0;
+    unsigned overlapping = 0;
+    for (std::size_t lane = 0; lane < OccluderChunk::Size; lane += hn::Lanes(d))
+    {
+      const auto dx = hn::Sub(hn::LoadU(d, chunk.x.data() + lane), hn::Set(d, r.x));
+      const auto dy = hn::Sub(hn::LoadU(d, chunk.y.data() + lane), hn::Set(d, r.y));
+      const auto dz = hn::Sub(hn::LoadU(d, chunk.z.data() + lane), hn::Set(d, r.z));
+      const auto gap = hn::MulAdd(dx, dx, hn::Mul(dy, dy));
+      const unsigned met = bitsOf(d, hn::Lt(gap, hn::Set(d, touch)));
+      if (met == 0)
+      {
+        continue;
+      }
+      // Touching spheres count as apart, whichever way rounding makes them.
+      const auto distance = hn::MulAdd(dz, dz, gap);
+      const unsigned cut = met & bitsOf(d, hn::Lt(distance, hn::Set(d, touch * (1 - 1e-4f))));
+      apart |= (met & ~cut) << lane;
+      overlapping |= cut << lane;
+      hn::Store(hn::ConvertTo(di, hn::MulAdd(dx, scale, originX)), di, column + lane);
+      hn::Store(hn::ConvertTo(di, hn::MulAdd(dy, scale, originY)), di, row + lane);
+    }
+    const bool open =
+      forEachBit(apart,
+        [&](std::size_t i) { return intersect(groups, masks.at(column[i], row[i]), mask); }) &&
+      forEachBit(
+        overlapping, [&](std::size_t i) { return hide(facing, seenFrom(r, chunk, i), mask); });
+    if (!open)
+    {
+      return false;
+    }
+    index = chunk.next;
+  }
+  return true;
+}
+
+void discs(const FacingTexels& facing, float a, float step, int count, float b, GroupMask* masks)
+{
+  const Floats d;
+  const auto one = hn::Set(d, 1.0f);
+  const std::size_t groups = facing.groups();
+  for (const std::uint32_t g : facing.facingGroups)
+  {
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+    {
+      const auto u = hn::LoadU(d, facing.u.data() + g * GroupSize + lane);
+      const auto dv = hn::Sub(hn::LoadU(d, facing.v.data() + g * GroupSize + lane), hn::Set(d, b));
+      const auto dv2 = hn::Mul(dv, dv);
+      for (int k = 0; k < count; ++k)
+      {
+        const auto du = hn::Sub(u, hn::Set(d, a + static_cast<float>(k) * step));
+        const unsigned inside = bitsOf(d, hn::Lt(hn::MulAdd(du, du, dv2), one));
+        GroupMask& mask = masks[static_cast<std::size_t>(k) * groups + g];
+        mask = static_cast<GroupMask>(mask & ~(inside << lane));
+      }
+    }
+  }
+}
+
 inline void addGroup(GroupMask mask, const float* terms, float* sums)
 {
   const Floats d;
@@ -133,15 +343,21 @@ inline void addGroup(GroupMask mask, const float* terms, float* sums)
   }
 }
 
-void addFacing(const FacingTexels& facing, const GroupMask* mask, float* sums)
+void addList(std::size_t groups, const MaskedTerms* list, std::size_t count, float* sums)
 {
-  const std::size_t groups = facing.groups();
-  const float* weights = facing.weight.data();
+  const Floats d;
   for (std::size_t g = 0; g < groups; ++g)
   {
-    if (mask[g] != 0)
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
     {
-      addGroup(mask[g], weights + g * GroupSize, sums + facing.group[g] * GroupSize);
+      const std::size_t i = g * GroupSize + lane;
+      auto sum = hn::LoadU(d, sums + i);
+      for (std::size_t k = 0; k < count; ++k)
+      {
+        const auto set = lanesOf(d, unsigned(list[k].mask[g]) >> lane);
+        sum = hn::Add(sum, hn::IfThenElseZero(set, hn::LoadU(d, list[k].terms + i)));
+      }
+      hn::StoreU(sum, d, sums + i);
     }
   }
 }
@@ -188,8 +404,12 @@ namespace po
 {
 HWY_EXPORT(hide);
 HWY_EXPORT(hideWithin);
-HWY_EXPORT(addFacing);
+HWY_EXPORT(behind);
+HWY_EXPORT(behindWithin);
+HWY_EXPORT(behindEqual);
+HWY_EXPORT(discs);
 HWY_EXPORT(addAll);
+HWY_EXPORT(addList);
 HWY_EXPORT(clearBuried);
 
 bool hideTexels(const FacingTexels& facing, const Occluder& occluder, GroupMask* mask)
@@ -203,20 +423,44 @@ bool hideTexelsWithin(
   return HWY_DYNAMIC_DISPATCH(hideWithin)(facing, occluder, distance, mask);
 }
 
+bool hideBehind(const FacingTexels& facing, OccluderList occluders, const ProjectedSphere& receiver,
+  GroupMask* mask)
+{
+  return HWY_DYNAMIC_DISPATCH(behind)(facing, occluders, receiver, mask);
+}
+
+bool hideBehindWithin(const FacingTexels& facing, OccluderList occluders,
+  const ProjectedSphere& receiver, float distance, GroupMask* mask)
+{
+  return HWY_DYNAMIC_DISPATCH(behindWithin)(facing, occluders, receiver, distance, mask);
+}
+
+bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
+  const ProjectedSphere& receiver, GroupMask* mask)
+{
+  return HWY_DYNAMIC_DISPATCH(behindEqual)(facing, masks, occluders, receiver, mask);
+}
+
+void clearDiscs(
+  const FacingTexels& facing, float a, float step, int count, float b, GroupMask* masks)
+{
+  HWY_DYNAMIC_DISPATCH(discs)(facing, a, step, count, b, masks);
+}
+
 void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
   GroupMask* bits, std::size_t groups)
 {
   HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, axis, cosine, bits, groups);
 }
 
-void addWeights(const FacingTexels& facing, const GroupMask* mask, float* sums)
-{
-  HWY_DYNAMIC_DISPATCH(addFacing)(facing, mask, sums);
-}
-
 void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, float* sums)
 {
   HWY_DYNAMIC_DISPATCH(addAll)(groups, mask, terms, sums);
+}
+
+void addMasked(std::size_t groups, const MaskedTerms* list, std::size_t count, float* sums)
+{
+  HWY_DYNAMIC_DISPATCH(addList)(groups, list, count, sums);
 }
 }
 #endif

@@ -2,6 +2,9 @@
 #ifndef po_TexelMask_h
 #define po_TexelMask_h
 
+#include "DepthTiles.h"
+#include "OccluderList.h"
+#include "OffsetMasks.h"
 #include "SweepTexels.h"
 
 #include <cstddef>
@@ -19,7 +22,7 @@ struct Occluder
 
 /// Clears the bits of the texels that an occluder hides: those within its disc whose point lies
 /// below its centre. That is exact for points outside the occluder (see SphereScene).
-/// @param mask one for each group of `facing`
+/// @param mask one for each group
 /// @return whether any bit is left
 bool hideTexels(const FacingTexels& facing, const Occluder& occluder, GroupMask* mask);
 
@@ -27,9 +30,24 @@ bool hideTexels(const FacingTexels& facing, const Occluder& occluder, GroupMask*
 bool hideTexelsWithin(
   const FacingTexels& facing, const Occluder& occluder, float distance, GroupMask* mask);
 
-/// Adds the weights of the texels that are set to their sums.
-/// @param sums one for each slot
-void addWeights(const FacingTexels& facing, const GroupMask* mask, float* sums);
+/// What all listed occluders leave of a receiver. They must come before it in depth.
+/// @param z of receiver and occluders grows towards the light
+/// @return whether any bit is left
+bool hideBehind(const FacingTexels& facing, OccluderList occluders, const ProjectedSphere& receiver,
+  GroupMask* mask);
+
+/// The same where light is blocked only within `distance`, in the units of the projection.
+bool hideBehindWithin(const FacingTexels& facing, OccluderList occluders,
+  const ProjectedSphere& receiver, float distance, GroupMask* mask);
+
+/// The same for occluders of the size of the receiver: pairs that do not overlap are looked up.
+bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
+  const ProjectedSphere& receiver, GroupMask* mask);
+
+/// For a row of discs of radius 1 with centres (a + k step, b), clears the texels of the facing
+/// groups that lie within disc k from masks [k][groups].
+void clearDiscs(
+  const FacingTexels& facing, float a, float step, int count, float b, GroupMask* masks);
 
 /// Clears the bits of the points of one group that lie inside a cap of the unit sphere: those with
 /// normal . axis > cosine.
@@ -39,6 +57,16 @@ void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, floa
 
 /// Adds the terms of the slots that are set to their sums; all arrays cover all groups.
 void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, float* sums);
+
+/// Terms and the mask of the slots that they count for.
+struct MaskedTerms
+{
+  const GroupMask* mask;
+  const float* terms;
+};
+
+/// Adds several, in their order, at one reading of the sums.
+void addMasked(std::size_t groups, const MaskedTerms* list, std::size_t count, float* sums);
 }
 
 #endif

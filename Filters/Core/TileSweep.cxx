@@ -1,99 +1,121 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TileSweep.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace po
 {
-void TileSweep::run(const DepthTile& tile, float reach, const SweptDirection& direction,
-  std::vector<std::uint8_t>& hidden)
+void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::Octave& octave,
+  const SweptDirection& direction, SeenMarks& seen)
 {
-  if (tile.first == tile.last)
+  octave_ = octave;
+  cells_.begin(tile, octave.largestRadius);
+  if (direction.useClosedCells)
   {
-    return;
+    closed_.begin(tile, octave.largestRadius);
   }
+  std::uint64_t visited = 0;
+  const std::size_t slabs = order.slabs();
+  for (std::size_t i = 0; i < slabs; ++i)
+  {
+    const DepthOrder::Slab slab = order.slab(direction.upward ? slabs - 1 - i : i);
+    const auto count = static_cast<std::size_t>(slab.last - slab.first);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const std::uint64_t key =
+        direction.upward ? slab.last[-1 - static_cast<std::ptrdiff_t>(k)] : slab.first[k];
+      if (!visit(tile.first[DepthOrder::place(key)], direction, seen))
+      {
+        counters_.visits += visited;
+        counters_.below += tile.size() - visited;
+        return;
+      }
+      ++visited;
+    }
+  }
+  counters_.visits += visited;
+}
+
+bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, SeenMarks& seen)
+{
   const bool bounded = std::isfinite(direction.distance);
-  sortByDepth(tile, keys_, order_);
-  cells_.begin(tile, reach);
-  for (const std::uint32_t index : order_)
+  ProjectedSphere sphere = s.sphere;
+  sphere.z = direction.upward ? sphere.z : -sphere.z;
+  if (s.role == TileRole::Other)
   {
-    const TileSphere& s = tile.first[index];
-    const bool visible = s.role == TileRole::Other || sees(s, direction);
-    if (visible || bounded)
+    const bool hidden = sphere.index < octave_.first && (seen[sphere.index] & direction.bit()) == 0;
+    if (hidden && !bounded)
     {
-      cells_.insert(s.sphere);
+      return true;
     }
-    else if (s.role == TileRole::Receiver)
+    if (direction.useClosedCells)
     {
-      hidden[s.sphere.id] = 1;
+      closed_.close(sphere);
     }
   }
-}
-
-bool TileSweep::sees(const TileSphere& s, const SweptDirection& direction)
-{
-  const FacingTexels& facing = direction.facing;
-  const unsigned id = s.sphere.id;
-  mask_ = facing.facing;
-  if (!passes(cells_.cellOf(s.sphere), s.sphere, direction) ||
-    !passes(cells_.wide(), s.sphere, direction) ||
-    !records_.clearInside(id, direction.pattern, facing, mask_.data()))
+  else
   {
-    return false;
-  }
-  if (s.role == TileRole::Receiver)
-  {
-    records_.keep(id, direction.index, facing, mask_.data());
-  }
-  return true;
-}
-
-bool TileSweep::passes(const std::vector<OccluderCells::Entry>& occluders,
-  const ProjectedSphere& receiver, const SweptDirection& direction)
-{
-  // A sphere right in front hides most: those first, so that hidden spheres are done with soon.
-  constexpr float near = 0.25f;
-  return passes(occluders, receiver, direction, 0, near) &&
-    passes(occluders, receiver, direction, near, 1);
-}
-
-bool TileSweep::passes(const std::vector<OccluderCells::Entry>& occluders,
-  const ProjectedSphere& receiver, const SweptDirection& direction, float nearest, float farthest)
-{
-  const float scale = 1 / receiver.radius;
-  const float distance = direction.distance * scale;
-  const bool bounded = std::isfinite(direction.distance);
-  // The latest is the nearest in depth.
-  for (auto o = occluders.rbegin(); o != occluders.rend(); ++o)
-  {
-    const float dx = o->x - receiver.x;
-    const float dy = o->y - receiver.y;
-    const float touch = o->radius + receiver.radius;
-    const float square = touch * touch;
-    const float gap = dx * dx + dy * dy;
-    if (gap < nearest * square || gap >= farthest * square)
+    if (direction.useClosedCells)
     {
-      continue;
-    }
-    const float radius = o->radius * scale;
-    const Occluder occluder{ dx * scale, dy * scale, (o->z - receiver.z) * scale, radius * radius };
-    if (bounded)
-    {
-      if (occluder.height - radius - 1 < distance &&
-        !hideTexelsWithin(direction.facing, occluder, distance, mask_.data()))
+      if (closed_.hidesAllBelow(sphere.z))
       {
         return false;
       }
-      continue;
+      if (closed_.hides(sphere))
+      {
+        ++counters_.closed;
+        return true;
+      }
     }
-    const float margin = o->radius - receiver.radius;
-    const bool covers = margin > 0 && gap < margin * margin && occluder.height >= 1;
-    if (covers || !hideTexels(direction.facing, occluder, mask_.data()))
+    const bool visible = sees(s, sphere, direction);
+    if (direction.useClosedCells)
     {
-      return false;
+      closed_.close(sphere); // hidden or not, it closes what it covers
+    }
+    if (!visible && !bounded)
+    {
+      return true;
+    }
+    if (visible && s.role == TileRole::Receiver)
+    {
+      seen[sphere.index] = static_cast<std::uint8_t>(seen[sphere.index] | direction.bit());
     }
   }
+  cells_.insert(sphere);
   return true;
+}
+
+bool TileSweep::sees(
+  const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
+{
+  mask_ = direction.facing.facing;
+  if (!passes(cells_.cellOf(sphere), sphere, direction) ||
+    !passes(cells_.wide(), sphere, direction) ||
+    !records_.clearInside(sphere.index, direction.pattern, mask_.data()))
+  {
+    return false;
+  }
+  if (tileSphere.role == TileRole::Receiver)
+  {
+    records_.keep(sphere.index, direction.index, mask_.data());
+  }
+  return true;
+}
+
+bool TileSweep::passes(
+  OccluderList occluders, const ProjectedSphere& receiver, const SweptDirection& direction)
+{
+  const FacingTexels& facing = direction.facing;
+  if (occluders.first == OccluderList::Empty)
+  {
+    return true;
+  }
+  if (std::isfinite(direction.distance))
+  {
+    return hideBehindWithin(facing, occluders, receiver, direction.distance, mask_.data());
+  }
+  return direction.offsetMasks != nullptr
+    ? hideBehindEqual(facing, *direction.offsetMasks, occluders, receiver, mask_.data())
+    : hideBehind(facing, occluders, receiver, mask_.data());
 }
 }

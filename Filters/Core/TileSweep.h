@@ -2,24 +2,50 @@
 #ifndef po_TileSweep_h
 #define po_TileSweep_h
 
+#include "ClosedCells.h"
+#include "DepthOrder.h"
 #include "DepthTiles.h"
 #include "OccluderCells.h"
+#include "OffsetMasks.h"
 #include "TexelMask.h"
 #include "VisibilityRecords.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace po
 {
-/// A direction of a sweep.
+/// One of the two opposite directions that share a projection.
 struct SweptDirection
 {
   const FacingTexels& facing;
-  std::size_t pattern; ///< of the points in the texels
-  std::size_t index;   ///< in the block
-  float distance;      ///< light is blocked within it: local, infinite when unbounded
+  const OffsetMasks* offsetMasks; ///< null where pairs of equal spheres are not looked up
+  std::size_t pattern;            ///< of the points in the texels
+  std::size_t index;              ///< in the block
+  float distance;                 ///< light is blocked within it: local, infinite when unbounded
+  bool upward;                    ///< the light comes from where z grows
+  bool useClosedCells;
+
+  /// Of this direction in marks by sphere.
+  [[nodiscard]] std::uint8_t bit() const { return upward ? 1 : 2; }
+};
+
+/// Marks of what each direction of a pair has seen, by sphere: the sum of their bits.
+using SeenMarks = std::vector<std::uint8_t>;
+
+/// What a sweep could leave out.
+struct SweepCounters
+{
+  std::uint64_t visits = 0; ///< spheres that were looked at, in one direction
+  std::uint64_t closed = 0; ///< of these, those hidden by closed cells
+  std::uint64_t below = 0;  ///< never looked at: below a tile in which all cells are closed
+
+  void add(const SweepCounters& other)
+  {
+    visits += other.visits;
+    closed += other.closed;
+    below += other.below;
+  }
 };
 
 /// Finds what of a tile's receivers is seen along a direction, from the light downward.
@@ -36,27 +62,28 @@ public:
   {
   }
 
-  /// @param reach the largest radius of a receiver
-  /// @param hidden flags by sphere: set for receivers that show no texel
-  void run(const DepthTile& tile, float reach, const SweptDirection& direction,
-    std::vector<std::uint8_t>& hidden);
+  /// @param order of the tile's spheres
+  /// @param octave of the tile's receivers; those before it were swept already
+  /// @param seen receivers that show a texel are marked
+  void run(const DepthTile& tile, DepthOrder& order, const SweepScene::Octave& octave,
+    const SweptDirection& direction, SeenMarks& seen);
+
+  [[nodiscard]] const SweepCounters& counters() const { return counters_; }
 
 private:
-  bool sees(const TileSphere& sphere, const SweptDirection& direction);
-  /// Clears what the occluders hide of a receiver; false if nothing is left of it.
-  bool passes(const std::vector<OccluderCells::Entry>& occluders, const ProjectedSphere& receiver,
-    const SweptDirection& direction);
-
-  /// The same for occluders whose squared distance across, in that of a touch, is in [nearest,
-  /// farthest).
-  bool passes(const std::vector<OccluderCells::Entry>& occluders, const ProjectedSphere& receiver,
-    const SweptDirection& direction, float nearest, float farthest);
+  /// False when nothing below can be seen.
+  bool visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
+  [[nodiscard]] bool sees(
+    const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction);
+  [[nodiscard]] bool passes(
+    OccluderList occluders, const ProjectedSphere& receiver, const SweptDirection& direction);
 
   VisibilityRecords& records_;
   OccluderCells cells_;
-  std::vector<std::uint64_t> keys_;
-  std::vector<std::uint32_t> order_;
+  ClosedCells closed_;
+  SweepScene::Octave octave_{};
   std::vector<GroupMask> mask_;
+  SweepCounters counters_;
 };
 }
 

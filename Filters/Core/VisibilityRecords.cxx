@@ -6,212 +6,255 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace po
 {
 namespace
 {
-constexpr std::uint8_t Listed = 1;
-constexpr std::uint8_t Watched = 2;
-
 /// Caps of less than this share of the sphere are no overlaps: touching spheres have such by
 /// rounding. Their points count as outside, which changes a mean by no more than that share.
 constexpr double SmallestCap = 1e-5;
 
-/// Keeps the bits of exposed points; false if none is left.
-bool clearUnexposed(const GroupMask* exposed, const FacingTexels& facing, GroupMask* mask)
+bool isSliver(const BuriedCap& cap)
 {
-  unsigned left = 0;
-  for (std::size_t g = 0; g < facing.groups(); ++g)
-  {
-    mask[g] = static_cast<GroupMask>(mask[g] & exposed[facing.group[g]]);
-    left |= mask[g];
-  }
-  return left != 0;
+  return (1 - cap.cosine) / 2 < SmallestCap;
 }
 }
 
-VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepTexels& texels,
-  std::uint64_t seed, std::vector<std::uint8_t> listed, const std::vector<unsigned>& watched)
+VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& order,
+  const SweepTexels& texels, std::uint64_t seed, const std::vector<std::uint8_t>& listed,
+  const std::vector<unsigned>& watched)
   : scene_(scene)
+  , order_(order)
   , texels_(texels)
   , seed_(seed)
   , patterns_(texels, seed, 0)
-  , listed_(std::move(listed))
-  , records_(listed_.size())
-  , whole_(listed_.size())
+  , surface_(order.size())
+  , cuts_(order.size())
+  , chunks_((order.size() + ChunkSpheres - 1) / ChunkSpheres)
+  , watched_(order.size(), -1)
+  , subsetSums_(watched.size(), std::vector<float>(SweepSubsets * texels.slots(), 0.0f))
 {
   open_.total.assign(texels.slots(), 0.0f);
   open_.subsets.assign(SweepSubsets * texels.slots(), 0.0f);
   open_.pastPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
-  for (const unsigned particle : watched)
+  for (std::size_t sphere = 0; sphere < listed.size(); ++sphere)
   {
-    listed_[particle] |= Watched;
+    surface_[sphere] = listed[sphere] != 0 ? Surface::Unknown : Surface::NotListed;
+  }
+  for (std::size_t i = 0; i < watched.size(); ++i)
+  {
+    watched_[watched[i]] = static_cast<int>(i);
   }
 }
 
-VisibilityRecords::~VisibilityRecords() = default;
-
-bool VisibilityRecords::clearInside(
-  unsigned particle, std::size_t pattern, const FacingTexels& facing, GroupMask* mask)
+VisibilityRecords::~VisibilityRecords()
 {
-  if (listed_[particle] == 0)
-  {
-    return true; // only occludes: what shows of it inside others hides nothing that is outside
-  }
-  if (whole_[particle].load(std::memory_order_relaxed) != 0)
-  {
-    return true;
-  }
-  const VisibilityRecord& record = findOrMake(particle);
-  if (!record.buried && record.caps.empty())
-  {
-    whole_[particle].store(1, std::memory_order_relaxed);
-    return true;
-  }
-  if (record.buried || record.exposure.bits.empty())
-  {
-    return !record.buried;
-  }
-  return clearUnexposed(record.exposure.ofPattern(pattern, texels_.groups()), facing, mask);
+  std::for_each(chunks_.begin(), chunks_.end(), [](const auto& chunk) { delete chunk.load(); });
 }
 
-void VisibilityRecords::keep(
-  unsigned particle, std::size_t index, const FacingTexels& facing, const GroupMask* mask)
+bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask)
 {
-  if (listed_[particle] != 0)
+  Surface surface = surface_[sphere].load(std::memory_order_acquire);
+  if (surface == Surface::Unknown)
   {
-    VisibilityRecord& record = findOrMake(particle);
-    std::copy(mask, mask + facing.groups(), record.masks.data() + index * texels_.groups());
-    record.seen[index] = 1;
+    surface = surfaceOf(sphere);
   }
+  if (surface != Surface::Cut)
+  {
+    // What shows of one that only occludes inside others hides nothing that is outside.
+    return surface != Surface::Buried;
+  }
+  const CutSphere& cut = *cuts_[sphere].load(std::memory_order_relaxed);
+  const GroupMask* exposed = cut.exposure.ofPattern(pattern, texels_.groups());
+  unsigned left = 0;
+  for (std::size_t g = 0; g < texels_.groups(); ++g)
+  {
+    mask[g] = static_cast<GroupMask>(mask[g] & exposed[g]);
+    left |= mask[g];
+  }
+  return left != 0;
 }
 
-VisibilityRecord& VisibilityRecords::findOrMake(unsigned particle)
+VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
 {
-  VisibilityRecord* known = records_[particle].load(std::memory_order_acquire);
+  thread_local Overlaps overlaps;
+  scene_.overlaps.find(order_.source(sphere), overlaps);
+  Surface surface = overlaps.buried ? Surface::Buried : Surface::Whole;
+  overlaps.caps.erase(
+    std::remove_if(overlaps.caps.begin(), overlaps.caps.end(), isSliver), overlaps.caps.end());
+  if (!overlaps.buried && !overlaps.caps.empty())
+  {
+    surface = Surface::Cut;
+    // Two threads may make the same at once; both are equal, and one is dropped.
+    std::unique_ptr<CutSphere> made = makeCut(overlaps.caps);
+    CutSphere* known = nullptr;
+    if (cuts_[sphere].compare_exchange_strong(known, made.get(), std::memory_order_acq_rel))
+    {
+      ownedCuts_.push_back(std::move(made));
+    }
+  }
+  surface_[sphere].store(surface, std::memory_order_release);
+  return surface;
+}
+
+std::unique_ptr<CutSphere> VisibilityRecords::makeCut(const std::vector<BuriedCap>& caps) const
+{
+  auto cut = std::make_unique<CutSphere>();
+  cut->caps = caps;
+  cut->exposure = exposeTexels(texels_, patterns_, cut->caps);
+  cut->pastWeights.assign(texels_.slots(), 0.0f);
+  addPatternWeights(*cut, open_.pastPatterns, cut->pastWeights);
+  return cut;
+}
+
+VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
+{
+  std::atomic<Chunk*>& place = chunks_[sphere / ChunkSpheres];
+  Chunk* known = place.load(std::memory_order_acquire);
   if (known != nullptr)
   {
     return *known;
   }
-  // Two threads may make the same record at once; both are equal, and one is dropped.
-  std::unique_ptr<VisibilityRecord> made = make(particle);
-  if (records_[particle].compare_exchange_strong(known, made.get(), std::memory_order_acq_rel))
-  {
-    known = made.get();
-    owned_.push_back(std::move(made));
-  }
-  return *known;
+  auto made = std::make_unique<Chunk>();
+  made->sums = std::make_unique<float[]>(ChunkSpheres * texels_.slots());
+  made->masks.reset(new GroupMask[SweepBlock * ChunkSpheres * texels_.groups()]);
+  return *(place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel)
+      ? made.release()
+      : known);
 }
 
-std::unique_ptr<VisibilityRecord> VisibilityRecords::make(unsigned particle) const
+void VisibilityRecords::keep(unsigned sphere, std::size_t index, const GroupMask* mask)
 {
-  auto record = std::make_unique<VisibilityRecord>();
-  record->particle = particle;
-  record->watched = (listed_[particle] & Watched) != 0;
-  Overlaps overlaps;
-  scene_.overlaps.find(particle, overlaps);
-  record->buried = overlaps.buried;
-  if (record->buried)
+  if (surface_[sphere].load(std::memory_order_relaxed) == Surface::NotListed)
   {
-    return record;
+    return;
   }
-  record->sums.assign(texels_.slots(), 0.0f);
-  record->masks.assign(SweepBlock * texels_.groups(), 0);
-  if (record->watched)
-  {
-    record->subsetSums.assign(SweepSubsets * texels_.slots(), 0.0f);
-  }
-  overlaps.caps.erase(std::remove_if(overlaps.caps.begin(), overlaps.caps.end(),
-                        [](const BuriedCap& cap) { return (1 - cap.cosine) / 2 < SmallestCap; }),
-    overlaps.caps.end());
-  if (!overlaps.caps.empty())
-  {
-    record->caps = std::move(overlaps.caps);
-    record->exposure = exposeTexels(texels_, patterns_, record->caps);
-    record->pastWeights.assign(texels_.slots(), 0.0f);
-    addPatternWeights(*record, open_.pastPatterns, record->pastWeights);
-  }
-  return record;
-}
-
-void VisibilityRecords::addMasks(
-  VisibilityRecord& record, const std::vector<FacingTexels>& directions, std::size_t subset) const
-{
-  for (std::size_t index = 0; index < directions.size(); ++index)
-  {
-    if (record.seen[index] == 0)
-    {
-      continue;
-    }
-    record.seen[index] = 0;
-    const GroupMask* mask = record.masks.data() + index * texels_.groups();
-    addWeights(directions[index], mask, record.sums.data());
-    if (record.watched)
-    {
-      addWeights(directions[index], mask, record.subsetSums.data() + subset * texels_.slots());
-    }
-  }
+  Chunk& chunk = findOrMakeChunk(sphere);
+  const std::size_t place = sphere % ChunkSpheres;
+  GroupMask* kept = chunk.masks.get() + (index * ChunkSpheres + place) * texels_.groups();
+  std::copy(mask, mask + texels_.groups(), kept);
+  chunk.seen[index][place] = 1;
 }
 
 void VisibilityRecords::addBlock(const std::vector<FacingTexels>& directions,
   const std::vector<std::size_t>& patterns, std::size_t subset)
 {
+  const std::size_t groups = texels_.groups();
   for (std::size_t index = 0; index < directions.size(); ++index)
   {
     const FacingTexels& facing = directions[index];
-    addWeights(facing, facing.facing.data(), open_.total.data());
-    addWeights(facing, facing.facing.data(), open_.subsets.data() + subset * texels_.slots());
-    addWeights(facing, facing.facing.data(),
-      open_.latestPatterns.data() + patterns[index] * texels_.slots());
+    const auto add = [&](std::vector<float>& weights, std::size_t row)
+    {
+      addMasked(
+        groups, facing.facing.data(), facing.weight.data(), weights.data() + row * texels_.slots());
+    };
+    add(open_.total, 0);
+    add(open_.subsets, subset);
+    add(open_.latestPatterns, patterns[index]);
   }
-  tbb::parallel_for(std::size_t(0), owned_.size(),
-    [&](std::size_t i) { addMasks(*owned_[i], directions, subset); });
+  tbb::parallel_for(std::size_t(0), chunks_.size(),
+    [&](std::size_t i)
+    {
+      if (chunks_[i].load(std::memory_order_relaxed) != nullptr)
+      {
+        addChunk(i, directions, subset);
+      }
+    });
 }
 
-void VisibilityRecords::addPatternWeights(const VisibilityRecord& record,
-  const std::vector<float>& patternWeights, std::vector<float>& sums) const
+void VisibilityRecords::addChunk(
+  std::size_t index, const std::vector<FacingTexels>& directions, std::size_t subset)
 {
+  Chunk& chunk = *chunks_[index].load(std::memory_order_relaxed);
   const std::size_t groups = texels_.groups();
-  const bool allOutside = record.exposure.bits.empty();
-  const std::vector<GroupMask> all(allOutside ? groups : 0, AllOfGroup);
+  for (std::size_t place = 0; place < ChunkSpheres; ++place)
+  {
+    std::array<MaskedTerms, SweepBlock> terms;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < directions.size(); ++k)
+    {
+      if (chunk.seen[k][place] != 0)
+      {
+        chunk.seen[k][place] = 0;
+        terms[count++] = { chunk.masks.get() + (k * ChunkSpheres + place) * groups,
+          directions[k].weight.data() };
+      }
+    }
+    if (count == 0)
+    {
+      continue;
+    }
+    chunk.everSeen[place] = 1;
+    addMasked(groups, terms.data(), count, chunk.sums.get() + place * texels_.slots());
+    const int watched = watched_[index * ChunkSpheres + place];
+    if (watched >= 0)
+    {
+      float* sums = subsetSums_[static_cast<std::size_t>(watched)].data();
+      addMasked(groups, terms.data(), count, sums + subset * texels_.slots());
+    }
+  }
+}
+
+void VisibilityRecords::addPatternWeights(
+  const CutSphere& cut, const std::vector<float>& patternWeights, std::vector<float>& sums) const
+{
+  std::array<MaskedTerms, TexelPatterns::Count> terms;
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {
-    const GroupMask* exposed = allOutside ? all.data() : record.exposure.ofPattern(p, groups);
-    addMasked(groups, exposed, patternWeights.data() + p * texels_.slots(), sums.data());
+    terms[p] = { cut.exposure.ofPattern(p, texels_.groups()),
+      patternWeights.data() + p * texels_.slots() };
   }
+  addMasked(texels_.groups(), terms.data(), terms.size(), sums.data());
 }
 
 void VisibilityRecords::nextEpoch()
 {
   patterns_ = TexelPatterns(texels_, seed_, ++epoch_);
-  tbb::parallel_for(std::size_t(0), owned_.size(),
+  tbb::parallel_for(std::size_t(0), ownedCuts_.size(),
     [&](std::size_t i)
     {
-      VisibilityRecord& record = *owned_[i];
-      if (!record.caps.empty())
-      {
-        addPatternWeights(record, open_.latestPatterns, record.pastWeights);
-        record.exposure = exposeTexels(texels_, patterns_, record.caps);
-      }
+      CutSphere& cut = *ownedCuts_[i];
+      addPatternWeights(cut, open_.latestPatterns, cut.pastWeights);
+      cut.exposure = exposeTexels(texels_, patterns_, cut.caps);
     });
   std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(), open_.latestPatterns.begin(),
     open_.pastPatterns.begin(), std::plus<>());
   std::fill(open_.latestPatterns.begin(), open_.latestPatterns.end(), 0.0f);
 }
 
-std::vector<float> VisibilityRecords::outsideWeights(const VisibilityRecord& record) const
+const float* VisibilityRecords::sums(unsigned sphere) const
 {
-  if (record.caps.empty())
+  const Chunk* chunk = chunks_[sphere / ChunkSpheres].load(std::memory_order_acquire);
+  const std::size_t place = sphere % ChunkSpheres;
+  const bool seen = chunk != nullptr && chunk->everSeen[place] != 0;
+  return seen ? chunk->sums.get() + place * texels_.slots() : nullptr;
+}
+
+const float* VisibilityRecords::subsetSums(unsigned sphere) const
+{
+  return subsetSums_[static_cast<std::size_t>(watched_[sphere])].data();
+}
+
+const CutSphere* VisibilityRecords::cut(unsigned sphere) const
+{
+  return cuts_[sphere].load(std::memory_order_acquire);
+}
+
+std::vector<float> VisibilityRecords::outsideWeights(unsigned sphere) const
+{
+  const CutSphere* found = cut(sphere);
+  if (found == nullptr)
   {
     return open_.total;
   }
-  std::vector<float> weights = record.pastWeights;
-  addPatternWeights(record, open_.latestPatterns, weights);
+  std::vector<float> weights = found->pastWeights;
+  addPatternWeights(*found, open_.latestPatterns, weights);
   for (std::size_t slot = 0; slot < weights.size(); ++slot)
   {
-    // A texel that no rim crosses: the same sum in another order. Take the one that `sums` is
+    // A texel that no rim crosses: the same sum in another order. Take the one that the sums are
     // compared with, so that an open texel is exactly 1.
     const float total = open_.total[slot];
     weights[slot] = weights[slot] > total * (1 - 1e-4f) ? total : weights[slot];
@@ -219,9 +262,13 @@ std::vector<float> VisibilityRecords::outsideWeights(const VisibilityRecord& rec
   return weights;
 }
 
+bool VisibilityRecords::isBuried(unsigned sphere) const
+{
+  return surface_[sphere].load(std::memory_order_acquire) == Surface::Buried;
+}
+
 std::uint64_t VisibilityRecords::buried() const
 {
-  return static_cast<std::uint64_t>(
-    std::count_if(owned_.begin(), owned_.end(), [](const auto& record) { return record->buried; }));
+  return static_cast<std::uint64_t>(std::count(surface_.begin(), surface_.end(), Surface::Buried));
 }
 }

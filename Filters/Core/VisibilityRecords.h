@@ -3,6 +3,7 @@
 #define po_VisibilityRecords_h
 
 #include "OcclusionEstimator.h"
+#include "SweepScene.h"
 #include "SweepTexels.h"
 #include "TexelExposure.h"
 
@@ -22,22 +23,15 @@ inline constexpr std::size_t SweepBlock = 16;
 /// Interleaved subsets of directions whose spread is the error bar.
 inline constexpr std::size_t SweepSubsets = 4;
 
-/// What a sweep has found about one particle.
-struct VisibilityRecord
+/// What a sweep needs to know of a sphere that others overlap.
+struct CutSphere
 {
-  unsigned particle;
-  bool buried = false;
-  bool watched = false; ///< its subsets are summed too
   std::vector<BuriedCap> caps;
-  TexelExposure exposure;                      ///< empty where every point is outside
-  std::vector<float> sums;                     ///< [slots] weights of the directions that are seen
-  std::vector<float> pastWeights;              ///< [slots] of exposed points, of ended epochs
-  std::vector<GroupMask> masks;                ///< [SweepBlock][groups] of the block at hand
-  std::array<std::uint8_t, SweepBlock> seen{}; ///< which of these masks are filled
-  std::vector<float> subsetSums;               ///< [SweepSubsets][slots] if watched
+  TexelExposure exposure;
+  std::vector<float> pastWeights; ///< [slots] of exposed points, of ended epochs
 };
 
-/// Weights that an open texel gets: what all records have in common.
+/// Weights that an open texel gets: what all spheres have in common.
 struct OpenWeights
 {
   std::vector<float> total;          ///< [slots], summed in the order of the directions
@@ -46,18 +40,19 @@ struct OpenWeights
   std::vector<float> latestPatterns; ///< [patterns][slots], this epoch
 };
 
-/// The visibility of particles, in memory that is taken when a particle is first seen: at 16 x 16
-/// texels 1.7 KiB a visible particle and 3 KiB more where others overlap it.
+/// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
+/// 16 x 16 texels 1.5 KiB a sphere, and 3 KiB more where others overlap it.
 ///
-/// Threads may call expose() and keep() for different directions at once. All results are
-/// independent of their order.
+/// Threads may call clearInside() and keep() for different directions at once. All results are
+/// independent of their order. Spheres are named by their index in the SweepScene.
 class VisibilityRecords
 {
 public:
-  /// @param listed flags by particle: whose visibility is asked for; others only occlude
-  /// @param watched the particles that error bars come from
-  VisibilityRecords(const BakeScene& scene, const SweepTexels& texels, std::uint64_t seed,
-    std::vector<std::uint8_t> listed, const std::vector<unsigned>& watched);
+  /// @param listed flags by sphere: whose visibility is asked for; others only occlude
+  /// @param watched the spheres that error bars come from
+  VisibilityRecords(const BakeScene& scene, const SweepScene& order, const SweepTexels& texels,
+    std::uint64_t seed, const std::vector<std::uint8_t>& listed,
+    const std::vector<unsigned>& watched);
   ~VisibilityRecords();
   VisibilityRecords(const VisibilityRecords&) = delete;
   VisibilityRecords& operator=(const VisibilityRecords&) = delete;
@@ -66,53 +61,77 @@ public:
   [[nodiscard]] const SweepTexels& texels() const { return texels_; }
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
-  /// Clears the bits of points that lie inside other spheres, for a particle that is seen, maybe
-  /// for the first time; false if none is left.
-  bool clearInside(
-    unsigned particle, std::size_t pattern, const FacingTexels& facing, GroupMask* mask);
+  /// Clears the bits of points that lie inside other spheres, for a sphere that is seen, maybe for
+  /// the first time; false if none is left.
+  bool clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask);
 
-  /// Keeps what direction `index` of the block sees of a particle.
-  void keep(
-    unsigned particle, std::size_t index, const FacingTexels& facing, const GroupMask* mask);
+  /// Keeps what direction `index` of the block sees of a sphere.
+  void keep(unsigned sphere, std::size_t index, const GroupMask* mask);
 
-  /// Adds the weights of a block.
+  /// Adds the weights of a block. Its masks are gone then.
   void addBlock(const std::vector<FacingTexels>& directions,
     const std::vector<std::size_t>& patterns, std::size_t subset);
 
   /// Goes on with new points in the texels.
   void nextEpoch();
 
-  /// The record of a particle, null if it was never seen.
-  [[nodiscard]] const VisibilityRecord* find(unsigned particle) const
-  {
-    return records_[particle].load(std::memory_order_acquire);
-  }
+  /// [slots] weights of the directions that are seen; null for a sphere that was never seen.
+  [[nodiscard]] const float* sums(unsigned sphere) const;
+  /// [SweepSubsets][slots], of a watched sphere.
+  [[nodiscard]] const float* subsetSums(unsigned sphere) const;
+  /// What overlaps a sphere that was seen; null if nothing does.
+  [[nodiscard]] const CutSphere* cut(unsigned sphere) const;
+  /// The whole surface is known to be inside another sphere.
+  [[nodiscard]] bool isBuried(unsigned sphere) const;
 
-  /// The weights of the points of a particle that are outside, [slots]: what an open texel sums to.
-  [[nodiscard]] std::vector<float> outsideWeights(const VisibilityRecord& record) const;
+  /// The weights of the points of a sphere that are outside, [slots]: what an open texel sums to.
+  [[nodiscard]] std::vector<float> outsideWeights(unsigned sphere) const;
 
   [[nodiscard]] std::uint64_t buried() const;
 
 private:
-  VisibilityRecord& findOrMake(unsigned particle);
-  [[nodiscard]] std::unique_ptr<VisibilityRecord> make(unsigned particle) const;
-  void addMasks(VisibilityRecord& record, const std::vector<FacingTexels>& directions,
-    std::size_t subset) const;
-  void addPatternWeights(const VisibilityRecord& record, const std::vector<float>& patternWeights,
-    std::vector<float>& sums) const;
+  /// What is known of a sphere's surface.
+  enum class Surface : std::uint8_t
+  {
+    Unknown,
+    Whole, ///< no part is inside others
+    Cut,
+    Buried,
+    NotListed
+  };
+
+  static constexpr std::size_t ChunkSpheres = 16;
+
+  /// Neighbouring spheres. Masks and marks are kept by direction: a direction writes to neighbours
+  /// in memory, and two directions never to the same byte.
+  struct Chunk
+  {
+    std::unique_ptr<float[]> sums;      ///< [ChunkSpheres][slots]
+    std::unique_ptr<GroupMask[]> masks; ///< [SweepBlock][ChunkSpheres][groups] where seen
+    std::array<std::array<std::uint8_t, ChunkSpheres>, SweepBlock> seen{};
+    std::array<std::uint8_t, ChunkSpheres> everSeen{};
+  };
+
+  [[nodiscard]] Surface surfaceOf(unsigned sphere);
+  [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
+  Chunk& findOrMakeChunk(unsigned sphere);
+  void addChunk(std::size_t index, const std::vector<FacingTexels>& directions, std::size_t subset);
+  void addPatternWeights(
+    const CutSphere& cut, const std::vector<float>& patternWeights, std::vector<float>& sums) const;
 
   const BakeScene& scene_;
+  const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
   std::uint32_t epoch_ = 0;
   TexelPatterns patterns_;
   OpenWeights open_;
-  std::vector<std::uint8_t> listed_; ///< 1: listed, 2: watched too
-  std::vector<std::atomic<VisibilityRecord*>> records_;
-  /// 1 for particles that are known to have no part inside others: their records, which are far
-  /// apart in memory, need not be read.
-  std::vector<std::atomic<std::uint8_t>> whole_;
-  tbb::concurrent_vector<std::unique_ptr<VisibilityRecord>> owned_;
+  std::vector<std::atomic<Surface>> surface_; ///< by sphere
+  std::vector<std::atomic<CutSphere*>> cuts_; ///< by sphere
+  std::vector<std::atomic<Chunk*>> chunks_;   ///< by sphere / ChunkSpheres
+  tbb::concurrent_vector<std::unique_ptr<CutSphere>> ownedCuts_;
+  std::vector<int> watched_; ///< by sphere: place in subsetSums_, or -1
+  std::vector<std::vector<float>> subsetSums_;
 };
 }
 

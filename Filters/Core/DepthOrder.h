@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_DepthOrder_h
+#define po_DepthOrder_h
+
+#include "DepthTiles.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace po
+{
+/// The spheres of a tile in the order of their depth, from either end.
+///
+/// They are dealt into slabs of equal depth, and a slab is sorted when it is first asked for: where
+/// all light is stopped at the surface, what lies below it is never sorted.
+class DepthOrder
+{
+public:
+  void begin(const DepthTile& tile);
+
+  [[nodiscard]] std::size_t slabs() const { return starts_.size() - 1; }
+
+  /// Places in the tile of a slab's spheres, sorted by z upward and then by place. Slabs are
+  /// numbered upward too.
+  struct Slab
+  {
+    const std::uint64_t* first;
+    const std::uint64_t* last;
+  };
+  [[nodiscard]] Slab slab(std::size_t index);
+  [[nodiscard]] static std::size_t place(std::uint64_t key) { return key & 0xFFFFFFFFu; }
+
+private:
+  std::vector<std::uint64_t> keys_; ///< height above, place below
+  std::vector<std::uint32_t> slabOf_;
+  std::vector<std::uint32_t> starts_{ 0 };
+  std::vector<std::uint32_t> next_;
+  std::vector<std::uint8_t> sorted_;
+};
+}
+
+#endif

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_OffsetMasks_h
+#define po_OffsetMasks_h
+
+#include "SweepTexels.h"
+
+#include <vector>
+
+namespace po
+{
+/// What a sphere in front leaves of a sphere of the same size that it does not overlap.
+///
+/// Of two such spheres the one whose centre is higher is the higher one along every line that meets
+/// both, so what is hidden depends on the offset across alone. Offsets are rounded to 1/16 of the
+/// radius; the grid is shifted at random from direction to direction, so that the roundings of a
+/// pair of spheres average out.
+class OffsetMasks
+{
+public:
+  static constexpr float CellsPerRadius = 16;
+  static constexpr int Side = 4 * 16 + 2; ///< offsets from -2 to 2 radii and one cell for the shift
+
+  /// Worth the memory only while the masks of all offsets stay in the cache.
+  [[nodiscard]] static bool fits(const SweepTexels& texels) { return texels.groups() <= 16; }
+
+  /// @param shiftX, shiftY of the grid in cells, 0 to 1
+  void build(const FacingTexels& facing, float shiftX, float shiftY);
+
+  /// Column (or row) of an offset in radii is the whole part of offset * CellsPerRadius + origin.
+  [[nodiscard]] float originX() const { return originX_; }
+  [[nodiscard]] float originY() const { return originY_; }
+
+  /// The masks [groups] of the texels that stay open.
+  [[nodiscard]] const GroupMask* at(int column, int row) const
+  {
+    return masks_.data() + static_cast<std::size_t>(row * Side + column) * groups_;
+  }
+
+private:
+  std::vector<GroupMask> masks_;
+  std::size_t groups_ = 0;
+  float originX_ = 0, originY_ = 0;
+};
+}
+
+#endif

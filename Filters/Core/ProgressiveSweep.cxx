@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ProgressiveSweep.h"
+
+#include "Random.h"
+#include "SweepDirections.h"
+#include "SweepTextures.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace po
+{
+namespace
+{
+constexpr std::size_t WatchedParticles = 256;
+
+std::vector<std::uint8_t> listedFlags(
+  const SweepScene& order, const std::vector<unsigned>& particles)
+{
+  std::vector<std::uint8_t> flags(order.size(), 0);
+  for (const unsigned particle : particles)
+  {
+    flags[order.indexOf(particle)] = 1;
+  }
+  return flags;
+}
+
+/// Up to 256 particles of the list, drawn by the seed, by their index in the order.
+std::vector<unsigned> watchedSpheres(
+  const SweepScene& order, std::vector<unsigned> particles, std::uint64_t seed)
+{
+  const std::size_t count = std::min(particles.size(), WatchedParticles);
+  Random random(seed, particles.size(), 0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto left = static_cast<std::uint32_t>(particles.size() - i);
+    std::swap(particles[i], particles[i + random.below(left)]);
+  }
+  particles.resize(count);
+  std::transform(particles.begin(), particles.end(), particles.begin(),
+    [&order](unsigned particle) { return order.indexOf(particle); });
+  return particles;
+}
+
+float localDistance(const BakeScene& scene, const BakeSettings& settings)
+{
+  return settings.maximumDistance > 0
+    ? static_cast<float>(settings.maximumDistance / scene.cloud.scale)
+    : std::numeric_limits<float>::infinity();
+}
+}
+
+ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
+  const BakeSettings& settings, const SweepSkips& skips)
+  : settings_(settings)
+  , particles_(std::move(particles))
+  , order_(scene.rays.spheres())
+  , texels_(settings.textureResolution)
+  , watched_(watchedSpheres(order_, particles_, settings.seed))
+  , records_(scene, order_, texels_, settings.seed, listedFlags(order_, particles_), watched_)
+  , sweep_(order_, settings.background, localDistance(scene, settings), records_, skips)
+{
+}
+
+void ProgressiveSweep::refine(int directions, Progress& progress)
+{
+  const int axes = (directions + 1) / 2;
+  progress.begin(2 * static_cast<std::uint64_t>(axes) * order_.size());
+  const std::uint64_t seed = rounds_ == 0 ? settings_.seed : mixBits(settings_.seed + rounds_);
+  sweep_.run(sweepAxes(axes, seed), progress);
+  ++rounds_;
+}
+
+int ProgressiveSweep::directions() const
+{
+  return sweep_.directions() - sweep_.blackDirections();
+}
+
+double ProgressiveSweep::estimatedError() const
+{
+  const SweepTextures textures(records_, settings_.background);
+  SweepTextures::SquaredError all;
+  for (const unsigned sphere : watched_)
+  {
+    const SweepTextures::SquaredError error = textures.squaredError(sphere);
+    all.sum += error.sum;
+    all.area += error.area;
+  }
+  return all.area > 0 ? std::sqrt(all.sum / all.area) : 0;
+}
+
+void ProgressiveSweep::handOut(
+  const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters) const
+{
+  constexpr std::size_t valuesPerChunk = std::size_t(1) << 22;
+  const auto side = static_cast<std::size_t>(settings_.textureResolution);
+  const std::size_t texels = side * side;
+  const std::size_t chunk = std::max<std::size_t>(1, valuesPerChunk / texels);
+  const SweepTextures textures(records_, settings_.background);
+  std::vector<float> values;
+  std::vector<float> shares;
+  for (std::size_t first = 0; first < particles_.size() && !progress.aborted(); first += chunk)
+  {
+    const std::size_t count = std::min(chunk, particles_.size() - first);
+    values.resize(count * texels);
+    shares.resize(count * texels);
+    tbb::parallel_for(std::size_t(0), count,
+      [&](std::size_t i)
+      {
+        textures.fill(order_.indexOf(particles_[first + i]), values.data() + i * texels,
+          shares.data() + i * texels);
+      });
+    counters.texelsInside +=
+      static_cast<std::uint64_t>(std::count(shares.begin(), shares.end(), 0.0f));
+    sink({ first, count, values.data(), shares.data() });
+    progress.advance(0);
+  }
+  const SweepCounters swept = sweep_.counters();
+  counters.particles += particles_.size();
+  counters.texels += particles_.size() * texels;
+  counters.particlesBuried += records_.buried();
+  counters.spheresClosed += swept.closed + swept.below;
+  counters.spheresNeverSeen += sweep_.neverSeen();
+  counters.directionsBlack += static_cast<std::uint64_t>(sweep_.blackDirections());
+  counters.threads = std::max(counters.threads, sweep_.threads());
+}
+}
