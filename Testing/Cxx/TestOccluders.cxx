@@ -169,8 +169,9 @@ TEST(Occluders, SpheresOccludeAndBuryAsParticlesDo)
 
 TEST(Occluders, TheSweepSeesOccluderSpheres)
 {
-  // The directions and the points in the texels are the same ones. What occluders show inside
-  // others is not sorted out, but hides nothing that is outside: masks can differ by rounding only.
+  // The directions and the points in the texels are the same ones. An occluder of which only a part
+  // inside others shows counts as visible where a particle does not: the sweep's shortcuts then
+  // differ, within their bias of 0.002 (measured: 0.0007 for one particle, 0 for the others).
   const po::SphereCloud all = cloudOf(mixedScene());
   const Split split(all, 30);
   const po::BakeSettings settings = floatSettings(6, 49);
@@ -180,7 +181,7 @@ TEST(Occluders, TheSweepSeesOccluderSpheres)
   ASSERT_EQ(part.mean.size(), 30u);
   for (std::size_t i = 0; i < 30; ++i)
   {
-    EXPECT_NEAR(part.mean[i], whole.mean[i], 0.01) << i;
+    EXPECT_NEAR(part.mean[i], whole.mean[i], 0.002) << i;
   }
 }
 
