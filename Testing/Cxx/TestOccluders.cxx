@@ -113,7 +113,7 @@ TEST(Occluders, ASphereOnASquareSeesHalfTheSky)
 
 TEST(Occluders, NoRayLeavesAClosedBox)
 {
-  // The edges and the diagonals of the faces are seen from everywhere, and none may let light in.
+  // Not one of 100,000 rays, whether or not it comes near the edges that triangles share.
   const po::BakeResult result = bakeUnder(
     cloudOf({ { 0, 0, 0, 1 } }), { {}, box(3) }, floatSettings(16, 400), po::ReferenceEstimator());
   const std::vector<float> texture = textureOf(result, 0);
