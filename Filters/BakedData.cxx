@@ -142,16 +142,16 @@ std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
   return blocks;
 }
 
-std::optional<SphereCloud> readBlocks(
-  const std::vector<vtkPolyData*>& blocks, const RadiusSettings& settings, std::string& error)
+std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
+  const RadiusSettings& settings, std::string& error, const SphereCloud* frame)
 {
   if (blocks.size() == 1)
   {
-    return readSphereCloud(*blocks.front(), settings, error);
+    return readSphereCloud(*blocks.front(), settings, error, frame);
   }
   const vtkSmartPointer<vtkPolyData> all =
     blocks.empty() ? vtkSmartPointer<vtkPolyData>::New() : appendBlocks(blocks);
-  return readSphereCloud(*all, settings, error);
+  return readSphereCloud(*all, settings, error, frame);
 }
 
 void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,

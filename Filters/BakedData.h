@@ -24,9 +24,10 @@ namespace po
 [[nodiscard]] std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data);
 
 /// One cloud of the particles of all blocks; sourceIds count through the blocks in order.
-/// Nothing, and a message in `error`, under the conditions of readSphereCloud.
-[[nodiscard]] std::optional<SphereCloud> readBlocks(
-  const std::vector<vtkPolyData*>& blocks, const RadiusSettings& settings, std::string& error);
+/// Nothing, and a message in `error`, under the conditions of readSphereCloud. With `frame` the
+/// spheres are put into the local coordinates of that cloud.
+[[nodiscard]] std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
+  const RadiusSettings& settings, std::string& error, const SphereCloud* frame = nullptr);
 
 /// Adds the arrays of the data contract to each block. A block gets the rows of the table that its
 /// particles use; particles that were left out get row -1 and visibility 0.

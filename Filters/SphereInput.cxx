@@ -218,7 +218,7 @@ double estimateRadius(vtkPointSet& points)
 }
 
 std::optional<SphereCloud> readSphereCloud(
-  vtkPointSet& points, const RadiusSettings& settings, std::string& error)
+  vtkPointSet& points, const RadiusSettings& settings, std::string& error, const SphereCloud* frame)
 {
   error.clear();
   const auto count = static_cast<std::size_t>(points.GetNumberOfPoints());
@@ -236,9 +236,10 @@ std::optional<SphereCloud> readSphereCloud(
   {
     return std::nullopt;
   }
-  SphereCloud cloud = makeSphereCloud(
-    count, [&points](std::size_t i) { return pointAt(points, i); },
-    [&radiusAt, &settings](std::size_t i) { return settings.scale * radiusAt(i); });
+  const auto positionAt = [&points](std::size_t i) { return pointAt(points, i); };
+  const auto scaledRadiusAt = [&](std::size_t i) { return settings.scale * radiusAt(i); };
+  SphereCloud cloud = frame ? makeSphereCloudLike(*frame, count, positionAt, scaledRadiusAt)
+                            : makeSphereCloud(count, positionAt, scaledRadiusAt);
   if (cloud.spheres.empty())
   {
     error = "No particle is usable. " + describe(cloud.rejected);

@@ -49,9 +49,11 @@ struct RadiusSettings
 /// Nothing is returned, and `error` says which array or parameter is wrong and what to do, if there
 /// are no points, the array is missing, not numeric, of the wrong length or number of components, a
 /// parameter is out of range, no radius can be estimated, or no particle at all is usable.
-/// Particles that are left out are counted in SphereCloud::rejected.
+/// Particles that are left out are counted in SphereCloud::rejected. With `frame` the spheres are
+/// put into the local coordinates of that cloud.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::optional<SphereCloud> readSphereCloud(
-  vtkPointSet& points, const RadiusSettings& settings, std::string& error);
+  vtkPointSet& points, const RadiusSettings& settings, std::string& error,
+  const SphereCloud* frame = nullptr);
 
 /// One sentence on the particles that were left out and why; empty if there are none.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::string describe(

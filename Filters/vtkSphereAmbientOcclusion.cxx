@@ -4,6 +4,7 @@
 #include "BakedData.h"
 #include "ErrorPilot.h"
 #include "ExrBackground.h"
+#include "OccluderInput.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
 
@@ -96,14 +97,28 @@ po::Progress::Report reportTo(vtkAlgorithm* algorithm)
   };
 }
 
-/// Sweep is the faster one wherever its memory is there.
-int chooseMethod(int method, std::size_t particles, const po::BakeSettings& settings)
+double sceneMemory(const po::SphereCloud& cloud, const po::Occluders& occluders,
+  const po::BakeSettings& settings, const po::OcclusionEstimator& estimator)
 {
+  return po::bakeMemory(cloud.spheres.size(), settings, estimator) + po::occluderMemory(occluders);
+}
+
+/// Sweep is the faster one wherever its memory is there, but knows spheres only.
+int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& occluders,
+  const po::BakeSettings& settings)
+{
+  const bool triangles = !occluders.mesh.triangles.empty();
+  if (method == vtkSphereAmbientOcclusion::Sweep && triangles)
+  {
+    throw std::invalid_argument("Method Sweep does not see the triangles of the input Occluders: "
+                                "choose the Method Automatic or Reference.");
+  }
   if (method != vtkSphereAmbientOcclusion::Automatic)
   {
     return method;
   }
-  const bool fits = po::bakeMemory(particles, settings, po::SweepEstimator()) <= freeMemory();
+  const bool fits =
+    !triangles && sceneMemory(cloud, occluders, settings, po::SweepEstimator()) <= freeMemory();
   return fits ? vtkSphereAmbientOcclusion::Sweep : vtkSphereAmbientOcclusion::Reference;
 }
 }
@@ -126,15 +141,21 @@ struct vtkSphereAmbientOcclusion::Internals
   static po::RadiusSettings ReadRadius(vtkSphereAmbientOcclusion* self);
 
   po::OcclusionParameters Describe(vtkSphereAmbientOcclusion* self,
-    const po::BakeSettings& settings, const po::EncodedTable& table) const;
+    const po::BakeSettings& settings, const po::EncodedTable& table,
+    const po::Occluders& occluders) const;
 
-  void Bake(vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks);
+  void Bake(vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks,
+    vtkDataObject* occluderData);
+  static po::SphereCloud ReadParticles(
+    vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks);
+  static po::Occluders ReadOccluders(
+    vtkSphereAmbientOcclusion* self, vtkDataObject* data, const po::SphereCloud& cloud);
   po::BakeResult BakeBySweep(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
-    const po::BakeSettings& settings);
+    const po::Occluders& occluders, const po::BakeSettings& settings);
 
   /// With a target error the samples that reach it are put into the settings.
-  po::BakeResult BakeByReference(
-    vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, po::BakeSettings& settings);
+  po::BakeResult BakeByReference(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
+    const po::Occluders& occluders, po::BakeSettings& settings);
 };
 
 po::Background vtkSphereAmbientOcclusion::Internals::ReadBackground(vtkSphereAmbientOcclusion* self)
@@ -202,8 +223,8 @@ po::RadiusSettings vtkSphereAmbientOcclusion::Internals::ReadRadius(vtkSphereAmb
 }
 
 po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
-  vtkSphereAmbientOcclusion* self, const po::BakeSettings& settings,
-  const po::EncodedTable& table) const
+  vtkSphereAmbientOcclusion* self, const po::BakeSettings& settings, const po::EncodedTable& table,
+  const po::Occluders& occluders) const
 {
   po::OcclusionParameters parameters;
   parameters.set("version", ContractVersion);
@@ -238,28 +259,49 @@ po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
   parameters.set("targetError", self->TargetError);
   parameters.set("estimatedError", this->EstimatedError);
   parameters.set("directions", this->Directions);
+  parameters.set("occluderTriangles", static_cast<long long>(occluders.mesh.triangles.size()));
+  parameters.set("occluderSpheres", static_cast<long long>(occluders.spheres.size()));
   return parameters;
 }
 
-void vtkSphereAmbientOcclusion::Internals::Bake(
+po::SphereCloud vtkSphereAmbientOcclusion::Internals::ReadParticles(
   vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks)
 {
-  po::BakeSettings settings = ReadSettings(self);
   std::string error;
-  const std::optional<po::SphereCloud> cloud = po::readBlocks(blocks, ReadRadius(self), error);
+  std::optional<po::SphereCloud> cloud = po::readBlocks(blocks, ReadRadius(self), error);
   if (!cloud)
   {
     throw std::invalid_argument(error);
   }
-  this->LeftOut = cloud->rejected.total();
-  if (this->LeftOut > 0)
+  if (cloud->rejected.total() > 0)
   {
     vtkWarningWithObjectMacro(self, << po::describe(cloud->rejected));
   }
-  this->Method = chooseMethod(self->Method, cloud->spheres.size(), settings);
+  return std::move(*cloud);
+}
+
+po::Occluders vtkSphereAmbientOcclusion::Internals::ReadOccluders(
+  vtkSphereAmbientOcclusion* self, vtkDataObject* data, const po::SphereCloud& cloud)
+{
+  po::OccluderInput input = po::readOccluders(data, ReadRadius(self), cloud);
+  for (const std::string& warning : input.warnings)
+  {
+    vtkWarningWithObjectMacro(self, << warning);
+  }
+  return std::move(input.occluders);
+}
+
+void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
+  const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluderData)
+{
+  po::BakeSettings settings = ReadSettings(self);
+  const po::SphereCloud cloud = ReadParticles(self, blocks);
+  this->LeftOut = cloud.rejected.total();
+  const po::Occluders occluders = ReadOccluders(self, occluderData, cloud);
+  this->Method = chooseMethod(self->Method, cloud, occluders, settings);
   const po::BakeResult result = this->Method == Sweep
-    ? this->BakeBySweep(self, *cloud, settings)
-    : this->BakeByReference(self, *cloud, settings);
+    ? this->BakeBySweep(self, cloud, occluders, settings)
+    : this->BakeByReference(self, cloud, occluders, settings);
   if (result.aborted)
   {
     return;
@@ -273,29 +315,31 @@ void vtkSphereAmbientOcclusion::Internals::Bake(
                                     << " is out of reach: the most that this method can do leaves "
                                     << this->EstimatedError << ".");
   }
-  po::attachBake(blocks, *cloud, result, this->Describe(self, settings, result.table));
+  po::attachBake(blocks, cloud, result, this->Describe(self, settings, result.table, occluders));
 }
 
-po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeBySweep(
-  vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, const po::BakeSettings& settings)
+po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeBySweep(vtkSphereAmbientOcclusion* self,
+  const po::SphereCloud& cloud, const po::Occluders& occluders, const po::BakeSettings& settings)
 {
   po::SweepOptions options;
   options.targetError = self->TargetError;
   const po::SweepEstimator sweep(options);
-  requireMemory(po::bakeMemory(cloud.spheres.size(), settings, sweep), cloud.spheres.size());
+  requireMemory(sceneMemory(cloud, occluders, settings, sweep), cloud.spheres.size());
   po::Progress progress(reportTo(self));
-  po::BakeResult result = po::bakeOcclusion(po::BakeScene(cloud), settings, sweep, progress);
+  po::BakeResult result =
+    po::bakeOcclusion(po::BakeScene(cloud, occluders), settings, sweep, progress);
   this->Directions = sweep.report().directions;
   this->EstimatedError = sweep.report().estimatedError;
   return result;
 }
 
 po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByReference(
-  vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, po::BakeSettings& settings)
+  vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, const po::Occluders& occluders,
+  po::BakeSettings& settings)
 {
   const po::ReferenceEstimator reference;
-  requireMemory(po::bakeMemory(cloud.spheres.size(), settings, reference), cloud.spheres.size());
-  const po::BakeScene scene(cloud);
+  requireMemory(sceneMemory(cloud, occluders, settings, reference), cloud.spheres.size());
+  const po::BakeScene scene(cloud, occluders);
   po::Progress progress(reportTo(self));
   if (self->TargetError > 0)
   {
@@ -310,6 +354,7 @@ po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByReference(
 vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
   : Impl(std::make_unique<Internals>())
 {
+  this->SetNumberOfInputPorts(2);
 }
 
 vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
@@ -318,8 +363,15 @@ vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
   this->SetBackgroundImage(nullptr);
 }
 
-int vtkSphereAmbientOcclusion::FillInputPortInformation(int, vtkInformation* info)
+int vtkSphereAmbientOcclusion::FillInputPortInformation(int port, vtkInformation* info)
 {
+  if (port == OccludersPort)
+  {
+    // Any type, so that the one error of a wrong one is this filter's own.
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
@@ -345,7 +397,8 @@ int vtkSphereAmbientOcclusion::RequestData(
   std::string error;
   try
   {
-    this->Impl->Bake(this, po::particleBlocks(output));
+    this->Impl->Bake(
+      this, po::particleBlocks(output), vtkDataObject::GetData(inputVector[OccludersPort]));
   }
   catch (const std::bad_alloc&)
   {

@@ -16,6 +16,13 @@
  * parallel with Embree. The input is a vtkPolyData, or a composite data set of them whose blocks
  * occlude each other.
  *
+ * The second input, port 1, is optional: a vtkPolyData, or a composite data set of them, that
+ * darkens the particles but gets no textures and is not part of the output. Of a block that has
+ * polygons or strips these occlude, from both sides; no part of a particle counts as inside a mesh.
+ * The points of other blocks are spheres, with radii as on the first input. Sweep knows spheres
+ * only: triangles are for the Method Reference, which Automatic then takes. Triangles with a corner
+ * that is NaN or infinite are left out with one warning that counts them.
+ *
  * The output is a shallow copy of the input plus
  * - point data `AmbientOcclusion`, float32[N]: mean visibility of the particle over the area that
  * is outside other particles, linear, 0 (exactly: no light arrives) to 1 (open; more under a
@@ -36,7 +43,8 @@
  * reports one error that names it and gives no output. When aborted, it passes the input on
  * unbaked.
  *
- * Under MPI every process bakes its own particles as if there were no others.
+ * Under MPI every process bakes its own particles as if there were no others, and no occluders but
+ * its own.
  */
 class PARTICLEOCCLUSIONFILTERS_EXPORT vtkSphereAmbientOcclusion : public vtkPassInputTypeAlgorithm
 {
@@ -44,6 +52,13 @@ public:
   static vtkSphereAmbientOcclusion* New();
   vtkTypeMacro(vtkSphereAmbientOcclusion, vtkPassInputTypeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// Input ports, for SetInputConnection and SetInputData.
+  enum InputPort
+  {
+    ParticlesPort = 0,
+    OccludersPort = 1 ///< optional: meshes and spheres that occlude but are not baked
+  };
 
   ///@{
   /**
@@ -92,7 +107,7 @@ public:
 
   enum MethodType
   {
-    Automatic = 0, ///< Sweep, or Reference if the memory for Sweep is not there
+    Automatic = 0, ///< Sweep, or Reference if its memory is not there or a mesh occludes
     Sweep = 1,     ///< exact visibility of all particles along directions that they share, no rays
     Embree = 2,    ///< not in this version
     Reference = 3  ///< jittered rays from every texel, one occlusion ray a sample

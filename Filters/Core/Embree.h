@@ -99,9 +99,14 @@ struct ReleaseScene
 {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
+struct ReleaseGeometry
+{
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
 
 using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDevice>;
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
+using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
 
 /// A new Embree device; throws std::runtime_error with Embree's reason.
 [[nodiscard]] DeviceHandle makeDevice();

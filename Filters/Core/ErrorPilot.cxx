@@ -84,7 +84,7 @@ int moreSamples(int samples, double excess)
 PilotResult samplesForError(const BakeScene& scene, const BakeSettings& settings,
   const OcclusionEstimator& estimator, double targetError, Progress& progress)
 {
-  const std::vector<unsigned> particles = choosePilotParticles(scene.cloud.spheres.size());
+  const std::vector<unsigned> particles = choosePilotParticles(scene.receivers());
   PilotResult result;
   result.samplesPerTexel = 16;
   for (;;)

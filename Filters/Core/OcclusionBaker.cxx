@@ -104,12 +104,24 @@ private:
   std::vector<std::uint8_t> known_; ///< of the texture at hand
   std::vector<float> texture_;
 };
+
+std::vector<Sphere> joined(const std::vector<Sphere>& first, const std::vector<Sphere>& second)
+{
+  std::vector<Sphere> all;
+  all.reserve(first.size() + second.size());
+  all.insert(all.end(), first.begin(), first.end());
+  all.insert(all.end(), second.begin(), second.end());
+  return all;
 }
 
-BakeScene::BakeScene(const SphereCloud& sphereCloud)
+/// Two hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
+constexpr double BytesPerSphere = 300;
+}
+
+BakeScene::BakeScene(const SphereCloud& sphereCloud, const Occluders& occluders)
   : cloud(sphereCloud)
-  , rays(sphereCloud.spheres)
-  , overlaps(cloud.spheres)
+  , rays(joined(sphereCloud.spheres, occluders.spheres), occluders.mesh)
+  , overlaps(rays.spheres())
 {
 }
 
@@ -131,21 +143,27 @@ void BakeCounters::add(const BakeCounters& other)
 double bakeMemory(
   std::size_t particles, const BakeSettings& settings, const OcclusionEstimator& estimator)
 {
-  // Two hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
-  constexpr double bytesPerSphere = 300;
   const double texels =
     static_cast<double>(settings.textureResolution) * settings.textureResolution;
   // The linear table stays until it is encoded; the encoded one is copied into the data set.
   const double bytesPerTexel = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
   return static_cast<double>(particles) *
-    (bytesPerSphere + texels * (bytesPerTexel + estimator.bytesPerTexel()));
+    (BytesPerSphere + texels * (bytesPerTexel + estimator.bytesPerTexel()));
+}
+
+double occluderMemory(const Occluders& occluders)
+{
+  // The hierarchy while it is built, and the mesh itself: measured below 220 bytes a triangle.
+  constexpr double bytesPerTriangle = 250;
+  return static_cast<double>(occluders.spheres.size()) * BytesPerSphere +
+    static_cast<double>(occluders.mesh.triangles.size()) * bytesPerTriangle;
 }
 
 BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
   const OcclusionEstimator& estimator, Progress& progress)
 {
   BakeResult result;
-  std::vector<unsigned> particles(scene.cloud.spheres.size());
+  std::vector<unsigned> particles(scene.receivers());
   std::iota(particles.begin(), particles.end(), 0u);
   TextureCollector collector(settings, particles.size());
   estimator.estimate(

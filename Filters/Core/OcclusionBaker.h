@@ -27,7 +27,10 @@ struct BakeResult
 [[nodiscard]] double bakeMemory(
   std::size_t particles, const BakeSettings& settings, const OcclusionEstimator& estimator);
 
-/// Bakes the visibility of the background onto all spheres of a scene, in parallel.
+/// The same of what only occludes.
+[[nodiscard]] double occluderMemory(const Occluders& occluders);
+
+/// Bakes the visibility of the background onto all particles of a scene, in parallel.
 ///
 /// The same input, settings and seed give the same bits for any number of threads.
 /// Throws std::runtime_error or std::bad_alloc when memory or Embree fails.

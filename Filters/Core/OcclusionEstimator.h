@@ -3,6 +3,7 @@
 #define po_OcclusionEstimator_h
 
 #include "BakeSettings.h"
+#include "OccluderMesh.h"
 #include "OverlapFinder.h"
 #include "Progress.h"
 #include "SphereCloud.h"
@@ -16,13 +17,19 @@
 namespace po
 {
 /// What a bake works on; all lengths local (see SphereCloud).
+///
+/// Spheres are numbered through: first the particles, which receive, then the occluders' spheres,
+/// which only cast. Light stops at both, and both bury what lies inside of them.
 struct BakeScene
 {
-  explicit BakeScene(const SphereCloud& cloud);
+  explicit BakeScene(const SphereCloud& cloud, const Occluders& occluders = {});
 
-  const SphereCloud& cloud;
-  SphereScene rays;
-  OverlapFinder overlaps;
+  /// Number of particles; also the number of the first sphere that is none.
+  [[nodiscard]] std::size_t receivers() const { return cloud.spheres.size(); }
+
+  const SphereCloud& cloud; ///< the particles alone
+  SphereScene rays;         ///< all spheres, and the triangles
+  OverlapFinder overlaps;   ///< of all spheres
 };
 
 /// What was done and what could be skipped.
@@ -61,9 +68,9 @@ public:
 
   virtual ~OcclusionEstimator() = default;
 
-  /// Estimates the listed particles, occluded by all, and hands them to `sink` in the order of the
-  /// list, on the calling thread. Returns early when `progress` says so; what was handed out is
-  /// then incomplete.
+  /// Estimates the listed particles, occluded by all there is, and hands them to `sink` in the
+  /// order of the list, on the calling thread. Returns early when `progress` says so; what was
+  /// handed out is then incomplete.
   virtual void estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const = 0;

@@ -53,46 +53,72 @@ bool accept(Vec3d position, double radius, RejectedParticles& rejected)
   return true;
 }
 
-bool fitsFloat(Vec3d local, double radius)
+bool isWithin(Vec3d local, double margin)
 {
   const double reach =
-    std::max({ std::abs(local.x), std::abs(local.y), std::abs(local.z) }) + radius;
-  return reach < LargestLocalLength && radius > SmallestLocalRadius;
-}
+    std::max({ std::abs(local.x), std::abs(local.y), std::abs(local.z) }) + margin;
+  return reach < LargestLocalLength;
 }
 
-SphereCloud makeSphereCloud(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
+bool fitsFloat(Vec3d local, double radius)
+{
+  return isWithin(local, radius) && radius > SmallestLocalRadius;
+}
+
+/// Chooses the middle and the mean radius of the usable particles; no sphere is made.
+SphereCloud emptyCloudAround(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
   const std::function<double(std::size_t)>& radiusAt)
 {
   SphereCloud cloud;
   Extent extent;
+  RejectedParticles ignored;
   std::size_t accepted = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
     const Vec3d position = positionAt(i);
     const double radius = radiusAt(i);
-    if (accept(position, radius, cloud.rejected))
+    if (accept(position, radius, ignored))
     {
       extent.include(position);
       // A running mean, since a sum of radii could overflow.
       extent.meanRadius += (radius - extent.meanRadius) / static_cast<double>(++accepted);
     }
   }
-  if (accepted == 0)
+  if (accepted > 0)
   {
-    return cloud;
+    cloud.origin = extent.middle();
+    cloud.scale = extent.meanRadius;
   }
+  return cloud;
+}
+}
 
-  cloud.origin = extent.middle();
-  cloud.scale = extent.meanRadius;
-  cloud.spheres.reserve(accepted);
-  cloud.sourceIds.reserve(accepted);
-  RejectedParticles alreadyCounted;
+bool SphereCloud::inRange(Vec3d local)
+{
+  return isFinite(local) && isWithin(local, 0);
+}
+
+SphereCloud makeSphereCloud(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
+  const std::function<double(std::size_t)>& radiusAt)
+{
+  return makeSphereCloudLike(
+    emptyCloudAround(count, positionAt, radiusAt), count, positionAt, radiusAt);
+}
+
+SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
+  const std::function<Vec3d(std::size_t)>& positionAt,
+  const std::function<double(std::size_t)>& radiusAt)
+{
+  SphereCloud cloud;
+  cloud.origin = other.origin;
+  cloud.scale = other.scale;
+  cloud.spheres.reserve(count);
+  cloud.sourceIds.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const Vec3d position = positionAt(i);
     const double radius = radiusAt(i);
-    if (!accept(position, radius, alreadyCounted))
+    if (!accept(position, radius, cloud.rejected))
     {
       continue;
     }

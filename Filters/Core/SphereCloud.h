@@ -38,6 +38,9 @@ struct SphereCloud
   std::vector<std::int64_t> sourceIds; ///< index of each sphere in the input
   RejectedParticles rejected;
 
+  /// Is a point of these local coordinates near enough for ray tracing in floats?
+  [[nodiscard]] static bool inRange(Vec3d local);
+
   [[nodiscard]] Vec3d toLocal(Vec3d world) const { return (1.0 / scale) * (world - origin); }
   [[nodiscard]] Vec3d toWorld(Vec3d local) const { return origin + scale * local; }
 };
@@ -47,6 +50,11 @@ struct SphereCloud
 /// @param positionAt world position of particle i
 /// @param radiusAt world radius of particle i, any number (what cannot be a sphere is rejected)
 [[nodiscard]] SphereCloud makeSphereCloud(std::size_t count,
+  const std::function<Vec3d(std::size_t)>& positionAt,
+  const std::function<double(std::size_t)>& radiusAt);
+
+/// The same in the local coordinates of another cloud, for spheres that share a scene with it.
+[[nodiscard]] SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
   const std::function<Vec3d(std::size_t)>& positionAt,
   const std::function<double(std::size_t)>& radiusAt);
 }

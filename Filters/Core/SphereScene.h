@@ -3,6 +3,7 @@
 #define po_SphereScene_h
 
 #include "Embree.h"
+#include "OccluderMesh.h"
 #include "Sphere.h"
 
 #include <limits>
@@ -10,23 +11,32 @@
 
 namespace po
 {
-/// Spheres in an Embree scene, with occlusion tests that need no epsilon.
+/// Spheres, and maybe triangles, in an Embree scene, with occlusion tests that need no epsilon.
 ///
 /// A point outside (or on) a sphere can only see it where the sphere's centre lies ahead of the
 /// ray: the ray's nearest approach to the centre is then at t > 0. Occlusion rays keep only such
 /// hits, so rounding at the start of a ray can hit neither the sphere it starts on nor one that it
 /// touches. The rule asks that the origin lies outside all spheres; samples inside another sphere
 /// must be sorted out before (see OverlapFinder).
+///
+/// Triangles stop occlusion rays from both sides. They need no such rule: a ray starts on a sphere,
+/// so on a triangle only by chance, and a triangle that cuts through the sphere is met by the rays
+/// that leave towards it, from whichever side they start.
 class SphereScene
 {
 public:
   static constexpr unsigned None = std::numeric_limits<unsigned>::max();
 
-  /// Builds the acceleration structure in parallel. An empty scene is allowed.
-  /// Throws std::runtime_error or std::bad_alloc when Embree cannot.
-  explicit SphereScene(std::vector<Sphere> spheres);
+  /// Embree's geometry ids.
+  static constexpr unsigned SphereGeometry = 0;
+  static constexpr unsigned TriangleGeometry = 1;
 
-  /// For rays of the caller's own making. Intersections are Embree's, unfiltered.
+  /// Builds the acceleration structure in parallel. An empty scene is allowed. The mesh is copied.
+  /// Throws std::runtime_error or std::bad_alloc when Embree cannot.
+  explicit SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh = {});
+
+  /// For rays of the caller's own making. Intersections are Embree's, unfiltered; in a scene with a
+  /// mesh, hits on triangles have the geometry id TriangleGeometry.
   [[nodiscard]] RTCScene handle() const { return scene_.get(); }
 
   [[nodiscard]] const std::vector<Sphere>& spheres() const { return spheres_; }
@@ -40,6 +50,9 @@ public:
   [[nodiscard]] bool occluded(Vec3f origin, Vec3f direction, float distance, unsigned own) const;
 
 private:
+  void addSpheres();
+  void addTriangles(const OccluderMesh& mesh);
+
   DeviceHandle device_;
   std::vector<Sphere> spheres_;
   SceneHandle scene_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "VTKErrors.h"
+#include "BakeFilterTestSupport.h"
 
 #include "vtkSphereAmbientOcclusion.h"
 
@@ -31,52 +31,6 @@ namespace
 {
 constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double Infinity = std::numeric_limits<double>::infinity();
-
-/// n x n x n spheres that touch, with a point array of radii.
-vtkSmartPointer<vtkPolyData> lattice(int n, const char* arrayName = "radius", double shift = 0)
-{
-  auto data = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkDoubleArray> radii;
-  radii->SetName(arrayName);
-  for (int i = 0; i < n * n * n; ++i)
-  {
-    points->InsertNextPoint(shift + i % n, i / n % n, i / (n * n));
-    radii->InsertNextValue(0.5);
-  }
-  data->SetPoints(points);
-  data->GetPointData()->AddArray(radii);
-  return data;
-}
-
-vtkDoubleArray* radiiOf(vtkPolyData* data)
-{
-  return vtkDoubleArray::SafeDownCast(data->GetPointData()->GetArray("radius"));
-}
-
-std::string parameter(vtkFieldData* field, const std::string& key)
-{
-  auto* strings =
-    vtkStringArray::SafeDownCast(field->GetAbstractArray("AmbientOcclusionParameters"));
-  for (vtkIdType i = 0; strings && i < strings->GetNumberOfValues(); ++i)
-  {
-    const std::string entry = strings->GetValue(i);
-    if (entry.compare(0, key.size() + 1, key + "=") == 0)
-    {
-      return entry.substr(key.size() + 1);
-    }
-  }
-  return "(missing)";
-}
-
-/// The one error of executing the filter, "" if there is none.
-std::string errorOf(vtkSphereAmbientOcclusion* filter)
-{
-  ErrorCatcher errors(filter);
-  filter->Update();
-  EXPECT_LE(errors.count(), 1);
-  return errors.text();
-}
 
 TEST(SphereAmbientOcclusion, OutputFollowsTheDataContract)
 {

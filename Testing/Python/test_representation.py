@@ -180,6 +180,49 @@ self.GetPolyDataOutput().GetPointData().AddArray(radii)
             self.show(group)
             self.assertLess(differing(picture(self.view), both), 0.001)
 
+    def test_occluders_darken_and_are_not_shown(self):
+        particles = programmable(POLY_DATA)
+        baked = simple.SphereAmbientOcclusion(Input=particles, TextureResolution=4, SamplesPerTexel=16)
+        self.assertEqual(baked.SMProxy.GetProperty("Occluders").GetXMLLabel(), "Occluders")
+
+        def mean():
+            """Mean visibility; the result has the particles alone."""
+            baked.UpdatePipeline()
+            self.assertEqual(baked.GetDataInformation().GetNumberOfPoints(), 64)
+            return vtk_to_numpy(
+                simple.servermanager.Fetch(baked).GetPointData().GetArray("AmbientOcclusion")).mean()
+
+        def method():
+            baked.UpdatePropertyInformation()
+            return baked.GetPropertyValue("MethodUsed")
+
+        alone = mean()
+        self.assertEqual(method(), "Sweep")
+        ground = simple.Plane(Origin=[-9, -9, -0.6], Point1=[12, -9, -0.6], Point2=[-9, 12, -0.6])
+        baked.Occluders = ground
+        self.assertLess(mean(), 0.8 * alone)
+        self.assertEqual(method(), "Reference")
+        baked.Occluders = simple.GroupDatasets(Input=[ground, simple.Sphere(Center=[1.5, 1.5, 9], Radius=5)])
+        self.assertLess(mean(), 0.7 * alone)
+
+        baked.Occluders = None
+        self.assertEqual(mean(), alone)
+
+    def test_occluders_are_kept_in_a_state(self):
+        simple.SphereAmbientOcclusion(Input=programmable(POLY_DATA), Occluders=simple.Plane())
+        known = set(simple.GetSources())
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(folder, "state.pvsm")
+            simple.SaveState(name)
+            simple.LoadState(name)
+        restored = [source for key, source in simple.GetSources().items() if key not in known]
+        views = [view for view in simple.GetRenderViews() if view != self.view]
+        occluders = [source.Occluders.GetXMLName() for source in restored
+                     if source.GetXMLName() == "SphereAmbientOcclusion" and source.Occluders]
+        self.assertIn("PlaneSource", occluders)
+        for view in views:
+            simple.Delete(view)
+
     def test_selection_finds_the_particle(self):
         self.show(programmable(POLY_DATA))
         simple.Render(self.view)
