@@ -12,7 +12,7 @@ struct SweepOptions
 {
   int directions = 0;     ///< 0: as many as the settings' samplesPerTexel stand for
   double targetError = 0; ///< above 0: RMS error to reach, with as many directions as that takes
-  SweepSkips skips;
+  SweepSkips skips = {};
 };
 
 /// What a sweep did to reach its result.
