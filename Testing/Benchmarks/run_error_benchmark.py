@@ -14,6 +14,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 
 import error_benchmark_report as report
 
@@ -38,6 +39,7 @@ LONG_COUNT = 955_000
 TINY_COUNT = 400
 SIZES = [10_000, 30_000, 100_000, 300_000, 955_000, 7_157_720]
 LARGEST_SIZE = {"short": 100_000, "long": 7_157_720}
+RESOLUTION = 16    # of all series but the one of resolutions
 RESOLUTIONS = [1, 2, 4, 8, 16, 32, 64]
 RADIUS_RATIOS = [1, 10, 100, 1000, 10000]
 LATTICE_RADII = [0.45, 0.5, 0.56, 0.62, 0.75, 0.9]
@@ -64,6 +66,11 @@ def family(name, count):
     return Scene(name, name, count)
 
 
+def judge_name(scene):
+    count = f"-{scene.count}" if scene.count else ""
+    return f"{scene.label.replace(':', '-')}{count}-T{RESOLUTION}.ref"
+
+
 class Benchmark:
     """Runs BenchmarkError and gathers the rows of one series."""
 
@@ -88,27 +95,26 @@ class Benchmark:
         count = ["--count", scene.count] if scene.count else []
         return ["--scene", scene.argument, "--resolution", resolution, *count]
 
-    def judge(self, scene, samples=PASSING_SAMPLES, resolution=16):
+    def judge(self, scene):
         """The file of reference values: the shipped one, or one made beside the results."""
-        count = f"-{scene.count}" if scene.count else ""
-        name = f"{scene.label.replace(':', '-')}{count}-T{resolution}.ref"
-        shipped = SHIPPED_REFERENCES / name
+        shipped = SHIPPED_REFERENCES / judge_name(scene)
         if shipped.exists():
             return shipped
-        self.references.mkdir(parents=True, exist_ok=True)
-        file = self.references / name
+        file = self.references / judge_name(scene)
         if not file.exists():
-            print(f"reference values for {name}", flush=True)
-            self.write_judge(scene, file, TINY_SAMPLES if self.tiny else samples, resolution)
+            self.references.mkdir(parents=True, exist_ok=True)
+            self.write_judge(scene, file, TINY_SAMPLES if self.tiny else PASSING_SAMPLES)
         return file
 
-    def write_judge(self, scene, file, samples, resolution=16):
+    def write_judge(self, scene, file, samples):
+        print(f"reference values: {file.name}", flush=True)
         part = file.with_suffix(".part")
-        self.call("judge", *self.scene_arguments(scene, resolution), "--samples", samples,
+        self.call("judge", *self.scene_arguments(scene, RESOLUTION), "--samples", samples,
                   "--output", part)
         os.replace(part, file)
 
-    def measure(self, series, scene, method, level, resolution=16, judge=None, **more):
+    def measure(self, series, scene, method, level, resolution=RESOLUTION, judge=None,
+                **more):
         """Measures, keeps and returns one row: the run of least CPU time, if there are several.
 
         Where the program fails (it may have been killed for want of memory), the rest goes on.
@@ -179,7 +185,7 @@ class Benchmark:
             for resolution in [2, 4] if self.tiny else RESOLUTIONS:
                 # As many rays at all resolutions, in bounds: enough for the clock, and a sample
                 # of the particles.
-                measured = min(4096, max(64, 512 * 16**2 // resolution**2))
+                measured = min(4096, max(64, 512 * RESOLUTION**2 // resolution**2))
                 for method, level in USUAL_LEVELS.items():
                     self.measure("resolution", scene, method, level, resolution=resolution,
                                  measured=measured)
@@ -221,8 +227,8 @@ class Benchmark:
         """All that a sweep finds; a run that is not timed, since it writes a file."""
         with tempfile.TemporaryDirectory(dir=self.output) as folder:
             file = pathlib.Path(folder) / "values"
-            self.call("measure", *self.scene_arguments(scene, 16), "--method", "Sweep", "--level",
-                      SWEEP["Sweep"], "--target", target, "--values", file)
+            self.call("measure", *self.scene_arguments(scene, RESOLUTION), "--method", "Sweep",
+                      "--level", SWEEP["Sweep"], "--target", target, "--values", file)
             values = array.array("f")
             values.frombytes(file.read_bytes())
             return values
@@ -233,7 +239,9 @@ class Benchmark:
 
     def run(self, series):
         self.rows = []
+        start = time.monotonic()
         getattr(self, f"run_{series}")()
+        print(f"{series} took {time.monotonic() - start:.0f} s")
         return self.rows
 
 
@@ -271,9 +279,7 @@ def write_shipped_references(benchmark):
     scenes = [family(name, SHORT_COUNT) for name in FAMILIES]
     scenes += [Scene(name, file, None) for name, file in FILES.items()]
     for scene in scenes:
-        count = f"-{scene.count}" if scene.count else ""
-        benchmark.write_judge(scene, SHIPPED_REFERENCES / f"{scene.label}{count}-T16.ref",
-                              SHIPPED_SAMPLES)
+        benchmark.write_judge(scene, SHIPPED_REFERENCES / judge_name(scene), SHIPPED_SAMPLES)
 
 
 def parse_arguments():
