@@ -115,7 +115,7 @@ class Benchmark:
 
     def measure(self, series, scene, method, level, resolution=RESOLUTION, judge=None,
                 **more):
-        """Measures, keeps and returns one row: the run of least CPU time, if there are several.
+        """Measures, keeps and returns one row: of several runs the fastest.
 
         Where the program fails (it may have been killed for want of memory), the rest goes on.
         """
@@ -131,7 +131,8 @@ class Benchmark:
             self.failures += 1
             print(f"{series}: {scene.label} {method} {level} is left out: {problem}", flush=True)
             return None
-        row = min(runs, key=lambda run: run["cpu_s"])
+        seconds = "wall_s" if series == "threads" else "cpu_s"
+        row = min(runs, key=lambda run: run[seconds])
         row.update(series=series, scene=scene.label,
                    threads=more.get("threads", self.options.threads),
                    target=more.get("target", "best"))
