@@ -2,6 +2,7 @@
 #include "SphereSweep.h"
 
 #include "Random.h"
+#include "Sampling.h"
 #include "SweepDirections.h"
 
 #include <tbb/parallel_for.h>
@@ -76,8 +77,7 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
     {
       const Vec3d towardsLight = upward ? axes[i] : -axes[i];
       const double light = luminance(background_, towardsLight);
-      const std::size_t pattern =
-        (static_cast<std::size_t>(directions_) + 2 * i + (upward ? 0 : 1)) % TexelPatterns::Count;
+      const std::size_t pattern = nextPattern();
       if (light <= 0 && skips_.blackSky)
       {
         ++blackDirections_;
@@ -105,6 +105,22 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
   directions_ += static_cast<int>(2 * axes.size());
   ++blocks_;
   finishBlock();
+}
+
+/// Patterns take turns in an order that is drawn anew each time: the heights of the directions follow
+/// powers of two, as does the number of patterns, and a fixed order would show each pattern a part
+/// of the sky only.
+std::size_t SphereSweep::nextPattern()
+{
+  if (patternOrder_.empty())
+  {
+    Random random(mixBits(static_cast<std::uint64_t>(patternRounds_++)), 0, 0);
+    patternOrder_.resize(TexelPatterns::Count);
+    randomPermutation(random, patternOrder_);
+  }
+  const std::size_t pattern = patternOrder_.back();
+  patternOrder_.pop_back();
+  return pattern;
 }
 
 void SphereSweep::finishBlock()

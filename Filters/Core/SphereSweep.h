@@ -80,6 +80,7 @@ private:
     const SweepScene::Octave& octave, const AxisJob& job, Workspace& work, Progress& progress);
   void project(const AxisJob& job, std::vector<ProjectedSphere>& projected) const;
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
+  [[nodiscard]] std::size_t nextPattern();
   void finishBlock();
 
   const SweepScene& scene_;
@@ -92,6 +93,8 @@ private:
   std::vector<unsigned> seen_; ///< the spheres that were ever seen, up to the last block
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   tbb::enumerable_thread_specific<TileWorkspace> tileSweeps_;
+  std::vector<std::uint32_t> patternOrder_; ///< those to come
+  int patternRounds_ = 0;
   std::size_t blocks_ = 0;
   int epoch_ = 0;
   int directions_ = 0; ///< black ones too
