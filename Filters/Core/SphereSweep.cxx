@@ -107,9 +107,9 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
   finishBlock();
 }
 
-/// Patterns take turns in an order that is drawn anew each time: the heights of the directions follow
-/// powers of two, as does the number of patterns, and a fixed order would show each pattern a part
-/// of the sky only.
+/// Patterns take turns in an order that is drawn anew each time: the heights of the directions
+/// follow powers of two, as does the number of patterns, and a fixed order would show each pattern
+/// a part of the sky only.
 std::size_t SphereSweep::nextPattern()
 {
   if (patternOrder_.empty())

@@ -1,90 +1,77 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelExposure.h"
 
-#include "Constants.h"
 #include "TexelMask.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace po
 {
 namespace
 {
-/// A cap with what decides a whole texel: cosines of the angle between the axis and the texel's
-/// centre, by row of the fine grid.
-struct PreparedCap
+/// A cap and the texels, [groups], of which it may cover a part.
+struct RimCap
 {
-  Vec3f axis;
-  float cosine;
-  std::vector<float> allBuried;  ///< above it the whole texel is inside the cap
-  std::vector<float> someBuried; ///< at or above it a part is
+  const BuriedCap* cap;
+  std::vector<GroupMask> part;
 };
 
-PreparedCap prepare(const BuriedCap& cap, const std::vector<double>& texelRadii)
+/// Sorts texels into those that a cap covers and those that its rim may cross.
+std::vector<RimCap> classify(
+  const SweepTexels& texels, const std::vector<BuriedCap>& caps, std::vector<GroupMask>& outside)
 {
-  PreparedCap prepared{ cap.axis.as<float>(), static_cast<float>(cap.cosine), {}, {} };
-  const double halfAngle = std::acos(cap.cosine);
-  for (const double radius : texelRadii)
+  std::vector<RimCap> rims;
+  std::vector<GroupMask> covered(texels.groups());
+  for (const BuriedCap& cap : caps)
   {
-    // A little wider than the texel: rounding may then cost time, but never a wrong answer.
-    const double reach = radius + 1e-5;
-    prepared.allBuried.push_back(
-      halfAngle > reach ? static_cast<float>(std::cos(halfAngle - reach)) : 2.0f);
-    prepared.someBuried.push_back(
-      halfAngle + reach < Pi ? static_cast<float>(std::cos(halfAngle + reach)) : -2.0f);
+    rims.push_back({ &cap, std::vector<GroupMask>(texels.groups()) });
+    const double sine = std::sqrt((1 - cap.cosine) * (1 + cap.cosine));
+    classifyCap(texels.discs(), cap.axis.as<float>(), static_cast<float>(cap.cosine),
+      static_cast<float>(sine), covered.data(), rims.back().part.data());
+    for (std::size_t g = 0; g < texels.groups(); ++g)
+    {
+      outside[g] = static_cast<GroupMask>(outside[g] & ~covered[g]);
+    }
   }
-  return prepared;
+  return rims;
 }
 
-enum class Cover
+std::vector<std::uint32_t> groupsWithRim(
+  const std::vector<RimCap>& rims, const std::vector<GroupMask>& outside)
 {
-  None,
-  Part,
-  All
-};
-
-/// How much of a group of texels lies inside a cap.
-Cover coverOf(const SweepTexels& texels, std::size_t group, const PreparedCap& cap)
-{
-  bool all = true;
-  bool none = true;
-  for (std::size_t slot = group * GroupSize; slot < (group + 1) * GroupSize; ++slot)
+  std::vector<std::uint32_t> groups;
+  for (std::uint32_t g = 0; g < outside.size(); ++g)
   {
-    const auto row = static_cast<std::size_t>(texels.rowOf(slot));
-    const float cosine = dot(texels.center(slot), cap.axis);
-    all = all && cosine > cap.allBuried[row];
-    none = none && cosine < cap.someBuried[row];
+    if (std::any_of(
+          rims.begin(), rims.end(), [&](const RimCap& r) { return (r.part[g] & outside[g]) != 0; }))
+    {
+      groups.push_back(g);
+    }
   }
-  return all ? Cover::All : (none ? Cover::None : Cover::Part);
-}
-
-void clearGroup(TexelExposure& exposure, std::size_t group, std::size_t groups)
-{
-  for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
-  {
-    exposure.bits[pattern * groups + group] = 0;
-  }
+  return groups;
 }
 }
 
 TexelExposure exposeTexels(
   const SweepTexels& texels, const TexelPatterns& patterns, const std::vector<BuriedCap>& caps)
 {
-  const std::size_t groups = texels.groups();
-  TexelExposure exposure{ texels.allBits() };
-  for (const BuriedCap& buried : caps)
+  TexelExposure exposure;
+  exposure.outside.assign(texels.allBits().begin(),
+    texels.allBits().begin() + static_cast<std::ptrdiff_t>(texels.groups()));
+  const std::vector<RimCap> rims = classify(texels, caps, exposure.outside);
+  exposure.rimGroups = groupsWithRim(rims, exposure.outside);
+  const std::size_t groups = exposure.rimGroups.size();
+  exposure.rim.assign(TexelPatterns::Count * groups, AllOfGroup);
+  for (const RimCap& rim : rims)
   {
-    const PreparedCap cap = prepare(buried, texels.angularRadii());
-    for (std::size_t group = 0; group < groups; ++group)
+    for (std::size_t i = 0; i < groups; ++i)
     {
-      const Cover cover = coverOf(texels, group, cap);
-      if (cover == Cover::All)
+      const std::uint32_t g = exposure.rimGroups[i];
+      if ((rim.part[g] & exposure.outside[g]) != 0)
       {
-        clearGroup(exposure, group, groups);
-      }
-      else if (cover == Cover::Part)
-      {
-        clearCap(patterns, group, cap.axis, cap.cosine, exposure.bits.data(), groups);
+        clearCap(patterns, g, rim.cap->axis.as<float>(), static_cast<float>(rim.cap->cosine),
+          exposure.rim.data() + i, groups);
       }
     }
   }

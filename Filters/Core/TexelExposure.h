@@ -5,20 +5,39 @@
 #include "OverlapFinder.h"
 #include "SweepTexels.h"
 
-#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace po
 {
-/// Which points of a particle's texels lie outside all other spheres.
+/// Which points of a particle's texels lie outside all other spheres. Points are told apart only in
+/// the groups that the rim of an overlap crosses.
 struct TexelExposure
 {
-  /// [TexelPatterns::Count][groups]
-  std::vector<GroupMask> bits;
+  /// [groups] 0 for texels that lie inside one other sphere with all of their area
+  std::vector<GroupMask> outside;
+  std::vector<std::uint32_t> rimGroups;
+  /// [TexelPatterns::Count][rimGroups]
+  std::vector<GroupMask> rim;
 
-  [[nodiscard]] const GroupMask* ofPattern(std::size_t pattern, std::size_t groups) const
+  /// Clears the bits of points that are inside; false if none is left.
+  bool clearInside(std::size_t pattern, GroupMask* mask) const
   {
-    return bits.data() + pattern * groups;
+    unsigned left = 0;
+    for (std::size_t g = 0; g < outside.size(); ++g)
+    {
+      mask[g] = static_cast<GroupMask>(mask[g] & outside[g]);
+    }
+    for (std::size_t i = 0; i < rimGroups.size(); ++i)
+    {
+      GroupMask& group = mask[rimGroups[i]];
+      group = static_cast<GroupMask>(group & rim[pattern * rimGroups.size() + i]);
+    }
+    for (std::size_t g = 0; g < outside.size(); ++g)
+    {
+      left |= mask[g];
+    }
+    return left != 0;
   }
 };
 

@@ -373,8 +373,41 @@ void addAll(std::size_t groups, const GroupMask* mask, const float* terms, float
   }
 }
 
+void classify(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
+  GroupMask* part)
+{
+  // Rounding may cost time, but never a wrong answer.
+  constexpr float slack = 1e-6f;
+  const Floats d;
+  const auto c = hn::Set(d, cosine);
+  const auto s = hn::Set(d, sine);
+  const std::size_t groups = discs.x.size() / GroupSize;
+  for (std::size_t g = 0; g < groups; ++g)
+  {
+    unsigned all = 0;
+    unsigned none = 0;
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+    {
+      const std::size_t i = g * GroupSize + lane;
+      const auto xy = hn::MulAdd(hn::LoadU(d, discs.y.data() + i), hn::Set(d, axis.y),
+        hn::Mul(hn::LoadU(d, discs.x.data() + i), hn::Set(d, axis.x)));
+      const auto height = hn::MulAdd(hn::LoadU(d, discs.z.data() + i), hn::Set(d, axis.z), xy);
+      const auto cosRadius = hn::LoadU(d, discs.cosRadius.data() + i);
+      const auto sinRadius = hn::LoadU(d, discs.sinRadius.data() + i);
+      // cos(half angle -+ radius), for caps larger than the texel and with a gap larger than it
+      const auto cc = hn::Mul(c, cosRadius);
+      const auto inner = hn::Add(hn::MulAdd(s, sinRadius, cc), hn::Set(d, slack));
+      const auto outer = hn::Sub(hn::NegMulAdd(s, sinRadius, cc), hn::Set(d, slack));
+      all |= bitsOf(d, hn::And(hn::Gt(height, inner), hn::Lt(c, cosRadius))) << lane;
+      none |= bitsOf(d, hn::And(hn::Lt(height, outer), hn::Gt(c, hn::Neg(cosRadius)))) << lane;
+    }
+    covered[g] = static_cast<GroupMask>(all);
+    part[g] = static_cast<GroupMask>(~(all | none));
+  }
+}
+
 void clearBuried(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
-  GroupMask* bits, std::size_t groups)
+  GroupMask* bits, std::size_t stride)
 {
   const Floats d;
   const auto x = hn::Set(d, axis.x);
@@ -392,7 +425,7 @@ void clearBuried(const TexelPatterns& patterns, std::size_t group, Vec3f axis, f
       const auto height = hn::MulAdd(hn::LoadU(d, patterns.z.data() + i), z, xy);
       buried |= bitsOf(d, hn::Gt(height, limit)) << lane;
     }
-    GroupMask& mask = bits[pattern * groups + group];
+    GroupMask& mask = bits[pattern * stride];
     mask = static_cast<GroupMask>(mask & ~buried);
   }
 }
@@ -410,6 +443,7 @@ HWY_EXPORT(behindEqual);
 HWY_EXPORT(discs);
 HWY_EXPORT(addAll);
 HWY_EXPORT(addList);
+HWY_EXPORT(classify);
 HWY_EXPORT(clearBuried);
 
 bool hideTexels(const FacingTexels& facing, const Occluder& occluder, GroupMask* mask)
@@ -447,10 +481,16 @@ void clearDiscs(
   HWY_DYNAMIC_DISPATCH(discs)(facing, a, step, count, b, masks);
 }
 
-void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
-  GroupMask* bits, std::size_t groups)
+void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
+  GroupMask* part)
 {
-  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, axis, cosine, bits, groups);
+  HWY_DYNAMIC_DISPATCH(classify)(discs, axis, cosine, sine, covered, part);
+}
+
+void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
+  GroupMask* bits, std::size_t stride)
+{
+  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, axis, cosine, bits, stride);
 }
 
 void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, float* sums)

@@ -49,11 +49,18 @@ bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, Occlu
 void clearDiscs(
   const FacingTexels& facing, float a, float step, int count, float b, GroupMask* masks);
 
+/// Tells the texels of which a cap of the unit sphere, normal . axis > cosine, covers all from
+/// those of which it may cover a part.
+/// @param sine of the cap's half angle
+/// @param covered, part one mask for each group
+void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
+  GroupMask* part);
+
 /// Clears the bits of the points of one group that lie inside a cap of the unit sphere: those with
 /// normal . axis > cosine.
-/// @param bits [TexelPatterns::Count][groups]
+/// @param bits of the first pattern; those of the next are `stride` further
 void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
-  GroupMask* bits, std::size_t groups);
+  GroupMask* bits, std::size_t stride);
 
 /// Adds the terms of the slots that are set to their sums; all arrays cover all groups.
 void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, float* sums);

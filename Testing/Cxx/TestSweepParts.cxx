@@ -164,18 +164,21 @@ TEST(TexelExposure, TellsThePointsOutsideAllCaps)
   const po::TexelExposure exposure = po::exposeTexels(texels, patterns, caps);
   for (std::size_t p = 0; p < po::TexelPatterns::Count; ++p)
   {
+    std::vector<po::GroupMask> masks = texels.allBits();
+    EXPECT_TRUE(exposure.clearInside(p, masks.data()));
     for (std::size_t slot = 0; slot < texels.slots(); ++slot)
     {
       const po::Vec3d n = patterns.normal(p, slot).as<double>();
       const bool inside = std::any_of(caps.begin(), caps.end(),
         [n](const po::BuriedCap& cap) { return po::dot(n, cap.axis) > cap.cosine; });
-      const po::GroupMask mask = exposure.ofPattern(p, texels.groups())[slot / po::GroupSize];
+      const po::GroupMask mask = masks[slot / po::GroupSize];
       EXPECT_EQ((mask >> (slot % po::GroupSize) & 1) != 0, !inside) << p << " " << slot;
     }
   }
   // A cap smaller than the distance to any point takes none.
-  EXPECT_EQ(
-    po::exposeTexels(texels, patterns, { { { 1, 0, 0 }, 1 - 1e-12 } }).bits, texels.allBits());
+  std::vector<po::GroupMask> masks = texels.allBits();
+  po::exposeTexels(texels, patterns, { { { 1, 0, 0 }, 1 - 1e-12 } }).clearInside(0, masks.data());
+  EXPECT_EQ(masks, texels.allBits());
 }
 
 TEST(BackgroundIrradiance, AgreesWithQuadrature)
