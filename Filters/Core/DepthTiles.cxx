@@ -36,7 +36,7 @@ std::size_t DepthTiles::findExtent()
   std::size_t receivers = 0;
   for (const Member& m : members_)
   {
-    if (m.sameOctave)
+    if (m.sameBand)
     {
       ++receivers;
       lowX_ = std::min(lowX_, m.sphere->x);
@@ -114,7 +114,7 @@ void DepthTiles::sortIntoTiles()
   hasReceivers_.assign(tiles, 0);
   for (const Member& m : members_)
   {
-    if (m.sameOctave)
+    if (m.sameBand)
     {
       hasReceivers_[homeOf(*m.sphere)] = 1;
     }
@@ -132,8 +132,8 @@ void DepthTiles::sortIntoTiles()
   next_.assign(starts_.begin(), starts_.end() - 1);
   for (const Member& m : members_)
   {
-    const std::size_t home = m.sameOctave ? homeOf(*m.sphere) : tiles;
-    const TileRole elsewhere = m.sameOctave ? TileRole::Halo : TileRole::Other;
+    const std::size_t home = m.sameBand ? homeOf(*m.sphere) : tiles;
+    const TileRole elsewhere = m.sameBand ? TileRole::Halo : TileRole::Other;
     visitTiles(m,
       [&](std::size_t tile) {
         entries_[next_[tile]++] = { *m.sphere, tile == home ? TileRole::Receiver : elsewhere };

@@ -29,9 +29,9 @@ constexpr std::size_t FullEvery = AxesPerBlock;
 /// Closed cells must spare this share of all visits, or they cost more than they save.
 constexpr double WorthwhileShare = 0.15;
 
-bool equalRadii(const SweepScene::Octave& octave)
+bool equalRadii(const SweepScene::Band& band)
 {
-  return octave.largestRadius <= octave.smallestRadius * (1 + 1e-6f);
+  return band.largestRadius <= band.smallestRadius * (1 + 1e-6f);
 }
 }
 
@@ -198,14 +198,14 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   Workspace& work = workspaces_.local();
   project(job, work.projected);
   work.seen.assign(scene_.size(), 0);
-  if (skips_.offsetMasks && scene_.octaves().size() == 1 && equalRadii(scene_.octaves().front()) &&
+  if (skips_.offsetMasks && scene_.bands().size() == 1 && equalRadii(scene_.bands().front()) &&
     OffsetMasks::fits(records_.texels()) && !std::isfinite(distance_))
   {
     buildOffsetMasks(job, work);
   }
-  for (const SweepScene::Octave& octave : scene_.octaves())
+  for (const SweepScene::Band& band : scene_.bands())
   {
-    sweepOctave(octave, job, work, progress);
+    sweepBand(band, job, work, progress);
     if (progress.aborted())
     {
       return;
@@ -221,12 +221,12 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   progress.advance(job.directions.size() * (scene_.size() - work.projected.size()));
 }
 
-void SphereSweep::sweepOctave(
-  const SweepScene::Octave& octave, const AxisJob& job, Workspace& work, Progress& progress)
+void SphereSweep::sweepBand(
+  const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress)
 {
   const bool bounded = std::isfinite(distance_);
-  work.tiles.build(work.projected, octave,
-    [&](unsigned index) { return !bounded && index < octave.first && work.seen[index] == 0; });
+  work.tiles.build(work.projected, band,
+    [&](unsigned index) { return !bounded && index < band.first && work.seen[index] == 0; });
   const auto sweepTile = [&](std::size_t index)
   {
     const DepthTile tile = work.tiles.tile(index);
@@ -238,7 +238,7 @@ void SphereSweep::sweepOctave(
     tileWork.order.begin(tile);
     for (const SweptDirection& direction : job.directions)
     {
-      tileWork.sweep.run(tile, tileWork.order, octave, direction, work.seen);
+      tileWork.sweep.run(tile, tileWork.order, band, direction, work.seen);
     }
     const auto receivers = static_cast<std::uint64_t>(std::count_if(
       tile.first, tile.last, [](const TileSphere& s) { return s.role == TileRole::Receiver; }));

@@ -76,8 +76,8 @@ private:
 
   void sweepBlock(const std::vector<Vec3d>& axes, Progress& progress);
   void sweepAxis(AxisJob& job, Progress& progress);
-  void sweepOctave(
-    const SweepScene::Octave& octave, const AxisJob& job, Workspace& work, Progress& progress);
+  void sweepBand(
+    const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);
   void project(const AxisJob& job, std::vector<ProjectedSphere>& projected) const;
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
   [[nodiscard]] std::size_t nextPattern();

@@ -58,13 +58,12 @@ TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std:
   : x(Count * texels.slots())
   , y(x.size())
   , z(x.size())
-  , slots(texels.slots())
 {
   // The plastic number gives the Kronecker sequence of two dimensions that is spread best (Roberts
   // 2018); every texel shifts it by an amount of its own.
   constexpr double stepS = 0.75487766624669276;
   constexpr double stepT = 0.56984029099805327;
-  for (std::size_t slot = 0; slot < slots; ++slot)
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
     const std::uint32_t texel = texels.texelOfSlot(slot);
     if (texel == SweepTexels::Empty)

@@ -73,20 +73,18 @@ struct TexelPatterns
   /// @param epoch patterns of different epochs interleave: together they are well spread too
   TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std::uint32_t epoch);
 
-  /// The unit normals [Count][slots], 0 in empty slots.
+  /// The unit normals [groups][Count][GroupSize], 0 in empty slots.
   std::vector<float> x, y, z;
 
-  [[nodiscard]] std::size_t index(std::size_t pattern, std::size_t slot) const
+  [[nodiscard]] static constexpr std::size_t index(std::size_t pattern, std::size_t slot)
   {
-    return pattern * slots + slot;
+    return (slot / GroupSize * Count + pattern) * GroupSize + slot % GroupSize;
   }
   [[nodiscard]] Vec3f normal(std::size_t pattern, std::size_t slot) const
   {
     const std::size_t i = index(pattern, slot);
     return { x[i], y[i], z[i] };
   }
-
-  std::size_t slots;
 };
 
 /// The texels whose points face a direction, in the frame of the projection: u and v across, w

@@ -13,19 +13,21 @@ namespace po
 {
 namespace
 {
-/// The irradiance of an open surface at all points of all texels, [patterns][slots].
+/// The irradiance of an open surface at all points, in the order of TexelPatterns.
 std::vector<float> irradianceOfPoints(
   const SweepTexels& texels, const TexelPatterns& patterns, const Background& background)
 {
   const BackgroundIrradiance irradiance(background);
   std::vector<float> values(TexelPatterns::Count * texels.slots(), 0.0f);
-  for (std::size_t i = 0; i < values.size(); ++i)
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
-    const std::size_t slot = i % texels.slots();
-    if (texels.texelOfSlot(slot) != SweepTexels::Empty)
+    for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
     {
-      const Vec3f normal = patterns.normal(i / texels.slots(), slot);
-      values[i] = static_cast<float>(irradiance(normalized(normal.as<double>())));
+      if (texels.texelOfSlot(slot) != SweepTexels::Empty)
+      {
+        const Vec3d normal = normalized(patterns.normal(p, slot).as<double>());
+        values[TexelPatterns::index(p, slot)] = static_cast<float>(irradiance(normal));
+      }
     }
   }
   return values;
@@ -65,7 +67,7 @@ SweepTextures::FineTexels SweepTextures::openTexels() const
     double sum = 0;
     for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
     {
-      sum += static_cast<double>(irradiance_[p * slots + slot]);
+      sum += static_cast<double>(irradiance_[TexelPatterns::index(p, slot)]);
     }
     fine.irradiance[slot] = static_cast<float>(sum / TexelPatterns::Count);
   }
@@ -79,7 +81,7 @@ SweepTextures::FineTexels SweepTextures::cutTexels(const CutSphere& cut) const
   fine.weight = records_.outsideWeights(cut);
   for (std::size_t slot = 0; slot < fine.share.size(); ++slot)
   {
-    const bool outside = (exposure.outside[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
+    const bool outside = (exposure.bits[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
     fine.share[slot] = outside ? 1.0f : 0.0f;
   }
   const std::size_t rimTexels = exposure.rimGroups.size() * GroupSize;
@@ -93,7 +95,7 @@ SweepTextures::FineTexels SweepTextures::cutTexels(const CutSphere& cut) const
   for (std::size_t i = 0; i < rimTexels; ++i)
   {
     const std::size_t slot = exposure.rimGroups[i / GroupSize] * GroupSize + i % GroupSize;
-    fine.share[slot] *= points[i] / TexelPatterns::Count;
+    fine.share[slot] = points[i] / TexelPatterns::Count;
     if (!uniform_ && points[i] > 0 && points[i] < TexelPatterns::Count)
     {
       fine.irradiance[slot] = irradiance[i] / points[i];

@@ -52,8 +52,8 @@ private:
 
   const VisibilityRecords& records_;
   bool uniform_;                  ///< the irradiance of an open surface is 1 everywhere
-  std::vector<float> irradiance_; ///< [patterns][slots]
-  std::vector<float> ones_;       ///< [patterns][slots]
+  std::vector<float> irradiance_; ///< in the order of TexelPatterns
+  std::vector<float> ones_;       ///< as many
   FineTexels open_;               ///< of a sphere that nothing overlaps
 
   /// A fine texel of the sweep and the texel of the texture that it is a part of.

@@ -3,48 +3,46 @@
 
 #include "TexelMask.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace po
 {
 namespace
 {
-/// A cap and the texels, [groups], of which it may cover a part.
-struct RimCap
-{
-  const BuriedCap* cap;
-  std::vector<GroupMask> part;
-};
-
-/// Sorts texels into those that a cap covers and those that its rim may cross.
-std::vector<RimCap> classify(
+/// Takes texels that a cap covers from `outside` and returns, [caps][groups], those of which it may
+/// cover a part.
+std::vector<GroupMask> classify(
   const SweepTexels& texels, const std::vector<BuriedCap>& caps, std::vector<GroupMask>& outside)
 {
-  std::vector<RimCap> rims;
-  std::vector<GroupMask> covered(texels.groups());
-  for (const BuriedCap& cap : caps)
+  const std::size_t groups = texels.groups();
+  std::vector<GroupMask> parts(caps.size() * groups);
+  std::vector<GroupMask> covered(groups);
+  for (std::size_t i = 0; i < caps.size(); ++i)
   {
-    rims.push_back({ &cap, std::vector<GroupMask>(texels.groups()) });
-    const double sine = std::sqrt((1 - cap.cosine) * (1 + cap.cosine));
-    classifyCap(texels.discs(), cap.axis.as<float>(), static_cast<float>(cap.cosine),
-      static_cast<float>(sine), covered.data(), rims.back().part.data());
-    for (std::size_t g = 0; g < texels.groups(); ++g)
+    const double sine = std::sqrt((1 - caps[i].cosine) * (1 + caps[i].cosine));
+    classifyCap(texels.discs(), caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine),
+      static_cast<float>(sine), covered.data(), parts.data() + i * groups);
+    for (std::size_t g = 0; g < groups; ++g)
     {
       outside[g] = static_cast<GroupMask>(outside[g] & ~covered[g]);
     }
   }
-  return rims;
+  return parts;
 }
 
 std::vector<std::uint32_t> groupsWithRim(
-  const std::vector<RimCap>& rims, const std::vector<GroupMask>& outside)
+  const std::vector<GroupMask>& parts, const std::vector<GroupMask>& outside)
 {
+  std::vector<GroupMask> rim(outside.size(), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    GroupMask& mask = rim[i % outside.size()];
+    mask = static_cast<GroupMask>(mask | parts[i]);
+  }
   std::vector<std::uint32_t> groups;
   for (std::uint32_t g = 0; g < outside.size(); ++g)
   {
-    if (std::any_of(
-          rims.begin(), rims.end(), [&](const RimCap& r) { return (r.part[g] & outside[g]) != 0; }))
+    if ((rim[g] & outside[g]) != 0)
     {
       groups.push_back(g);
     }
@@ -56,22 +54,24 @@ std::vector<std::uint32_t> groupsWithRim(
 TexelExposure exposeTexels(
   const SweepTexels& texels, const TexelPatterns& patterns, const std::vector<BuriedCap>& caps)
 {
+  const std::size_t groups = texels.groups();
+  std::vector<GroupMask> outside = texels.allBits();
+  const std::vector<GroupMask> parts = classify(texels, caps, outside);
   TexelExposure exposure;
-  exposure.outside.assign(texels.allBits().begin(),
-    texels.allBits().begin() + static_cast<std::ptrdiff_t>(texels.groups()));
-  const std::vector<RimCap> rims = classify(texels, caps, exposure.outside);
-  exposure.rimGroups = groupsWithRim(rims, exposure.outside);
-  const std::size_t groups = exposure.rimGroups.size();
-  exposure.rim.assign(TexelPatterns::Count * groups, AllOfGroup);
-  for (const RimCap& rim : rims)
+  exposure.rimGroups = groupsWithRim(parts, outside);
+  exposure.bits.reserve(TexelPatterns::Count * groups);
+  for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {
-    for (std::size_t i = 0; i < groups; ++i)
+    exposure.bits.insert(exposure.bits.end(), outside.begin(), outside.end());
+  }
+  for (std::size_t i = 0; i < caps.size(); ++i)
+  {
+    for (const std::uint32_t g : exposure.rimGroups)
     {
-      const std::uint32_t g = exposure.rimGroups[i];
-      if ((rim.part[g] & exposure.outside[g]) != 0)
+      if ((parts[i * groups + g] & outside[g]) != 0)
       {
-        clearCap(patterns, g, rim.cap->axis.as<float>(), static_cast<float>(rim.cap->cosine),
-          exposure.rim.data() + i, groups);
+        clearCap(patterns, g, caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine),
+          exposure.bits.data() + g, groups);
       }
     }
   }

@@ -10,34 +10,15 @@
 
 namespace po
 {
-/// Which points of a particle's texels lie outside all other spheres. Points are told apart only in
-/// the groups that the rim of an overlap crosses.
+/// Which points of a particle's texels lie outside all other spheres.
 struct TexelExposure
 {
-  /// [groups] 0 for texels that lie inside one other sphere with all of their area
-  std::vector<GroupMask> outside;
-  std::vector<std::uint32_t> rimGroups;
-  /// [TexelPatterns::Count][rimGroups]
-  std::vector<GroupMask> rim;
+  std::vector<GroupMask> bits;          ///< [TexelPatterns::Count][groups]
+  std::vector<std::uint32_t> rimGroups; ///< those in which patterns may differ
 
-  /// Clears the bits of points that are inside; false if none is left.
-  bool clearInside(std::size_t pattern, GroupMask* mask) const
+  [[nodiscard]] const GroupMask* ofPattern(std::size_t pattern, std::size_t groups) const
   {
-    unsigned left = 0;
-    for (std::size_t g = 0; g < outside.size(); ++g)
-    {
-      mask[g] = static_cast<GroupMask>(mask[g] & outside[g]);
-    }
-    for (std::size_t i = 0; i < rimGroups.size(); ++i)
-    {
-      GroupMask& group = mask[rimGroups[i]];
-      group = static_cast<GroupMask>(group & rim[pattern * rimGroups.size() + i]);
-    }
-    for (std::size_t g = 0; g < outside.size(); ++g)
-    {
-      left |= mask[g];
-    }
-    return left != 0;
+    return bits.data() + pattern * groups;
   }
 };
 

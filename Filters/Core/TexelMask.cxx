@@ -238,17 +238,16 @@ bool behindWithin(const FacingTexels& facing, OccluderList occluders,
 
 using Masks = hn::CappedTag<GroupMask, 16>;
 
-/// mask &= other; false if nothing is left.
-inline bool intersect(std::size_t groups, const GroupMask* other, GroupMask* mask)
+inline bool both(std::size_t groups, const GroupMask* other, GroupMask* mask)
 {
   const Masks d;
   auto left = hn::Zero(d);
   std::size_t g = 0;
   for (; g + hn::Lanes(d) <= groups; g += hn::Lanes(d))
   {
-    const auto both = hn::And(hn::LoadU(d, mask + g), hn::LoadU(d, other + g));
-    hn::StoreU(both, d, mask + g);
-    left = hn::Or(left, both);
+    const auto common = hn::And(hn::LoadU(d, mask + g), hn::LoadU(d, other + g));
+    hn::StoreU(common, d, mask + g);
+    left = hn::Or(left, common);
   }
   unsigned rest = 0;
   for (; g < groups; ++g)
@@ -296,8 +295,8 @@ bool behindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderL
       hn::Store(hn::ConvertTo(di, hn::MulAdd(dy, scale, originY)), di, row + lane);
     }
     const bool open =
-      forEachBit(apart,
-        [&](std::size_t i) { return intersect(groups, masks.at(column[i], row[i]), mask); }) &&
+      forEachBit(
+        apart, [&](std::size_t i) { return both(groups, masks.at(column[i], row[i]), mask); }) &&
       forEachBit(
         overlapping, [&](std::size_t i) { return hide(facing, seenFrom(r, chunk, i), mask); });
     if (!open)
@@ -362,6 +361,21 @@ void addList(std::size_t groups, const MaskedTerms* list, std::size_t count, flo
   }
 }
 
+void addPoints(const GroupMask* mask, std::size_t stride, const float* terms, float* sums)
+{
+  const Floats d;
+  for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+  {
+    auto sum = hn::LoadU(d, sums + lane);
+    for (std::size_t p = 0; p < PointsPerTexel; ++p)
+    {
+      const auto set = lanesOf(d, unsigned(mask[p * stride]) >> lane);
+      sum = hn::Add(sum, hn::IfThenElseZero(set, hn::LoadU(d, terms + p * GroupSize + lane)));
+    }
+    hn::StoreU(sum, d, sums + lane);
+  }
+}
+
 void addAll(std::size_t groups, const GroupMask* mask, const float* terms, float* sums)
 {
   for (std::size_t g = 0; g < groups; ++g)
@@ -419,7 +433,7 @@ void clearBuried(const TexelPatterns& patterns, std::size_t group, Vec3f axis, f
     unsigned buried = 0;
     for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
     {
-      const std::size_t i = patterns.index(pattern, group * GroupSize + lane);
+      const std::size_t i = TexelPatterns::index(pattern, group * GroupSize + lane);
       const auto xy = hn::MulAdd(
         hn::LoadU(d, patterns.y.data() + i), y, hn::Mul(hn::LoadU(d, patterns.x.data() + i), x));
       const auto height = hn::MulAdd(hn::LoadU(d, patterns.z.data() + i), z, xy);
@@ -440,9 +454,11 @@ HWY_EXPORT(hideWithin);
 HWY_EXPORT(behind);
 HWY_EXPORT(behindWithin);
 HWY_EXPORT(behindEqual);
+HWY_EXPORT(both);
 HWY_EXPORT(discs);
 HWY_EXPORT(addAll);
 HWY_EXPORT(addList);
+HWY_EXPORT(addPoints);
 HWY_EXPORT(classify);
 HWY_EXPORT(clearBuried);
 
@@ -475,6 +491,11 @@ bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, Occlu
   return HWY_DYNAMIC_DISPATCH(behindEqual)(facing, masks, occluders, receiver, mask);
 }
 
+bool intersect(std::size_t groups, const GroupMask* other, GroupMask* mask)
+{
+  return HWY_DYNAMIC_DISPATCH(both)(groups, other, mask);
+}
+
 void clearDiscs(
   const FacingTexels& facing, float a, float step, int count, float b, GroupMask* masks)
 {
@@ -501,6 +522,11 @@ void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, fl
 void addMasked(std::size_t groups, const MaskedTerms* list, std::size_t count, float* sums)
 {
   HWY_DYNAMIC_DISPATCH(addList)(groups, list, count, sums);
+}
+
+void addOverPoints(const GroupMask* mask, std::size_t stride, const float* terms, float* sums)
+{
+  HWY_DYNAMIC_DISPATCH(addPoints)(mask, stride, terms, sums);
 }
 }
 #endif

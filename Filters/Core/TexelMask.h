@@ -44,6 +44,9 @@ bool hideBehindWithin(const FacingTexels& facing, OccluderList occluders,
 bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
   const ProjectedSphere& receiver, GroupMask* mask);
 
+/// Clears the bits that are not set in the other mask too; false if none is left.
+bool intersect(std::size_t groups, const GroupMask* other, GroupMask* mask);
+
 /// For a row of discs of radius 1 with centres (a + k step, b), clears the texels of the facing
 /// groups that lie within disc k from masks [k][groups].
 void clearDiscs(
@@ -71,6 +74,10 @@ struct MaskedTerms
   const GroupMask* mask;
   const float* terms;
 };
+
+/// Adds, for one group, the terms [PointsPerTexel][GroupSize] of the points that are set.
+/// @param mask of the first pattern; those of the next are `stride` further
+void addOverPoints(const GroupMask* mask, std::size_t stride, const float* terms, float* sums);
 
 /// Adds several, in their order, at one reading of the sums.
 void addMasked(std::size_t groups, const MaskedTerms* list, std::size_t count, float* sums);

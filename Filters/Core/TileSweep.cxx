@@ -5,14 +5,14 @@
 
 namespace po
 {
-void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::Octave& octave,
+void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::Band& band,
   const SweptDirection& direction, SeenMarks& seen)
 {
-  octave_ = octave;
-  cells_.begin(tile, octave.largestRadius);
+  band_ = band;
+  cells_.begin(tile, band.largestRadius);
   if (direction.useClosedCells)
   {
-    closed_.begin(tile, octave.largestRadius);
+    closed_.begin(tile, band.largestRadius);
   }
   std::uint64_t visited = 0;
   const std::size_t slabs = order.slabs();
@@ -43,7 +43,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
   sphere.z = direction.upward ? sphere.z : -sphere.z;
   if (s.role == TileRole::Other)
   {
-    const bool hidden = sphere.index < octave_.first && (seen[sphere.index] & direction.bit()) == 0;
+    const bool hidden = sphere.index < band_.first && (seen[sphere.index] & direction.bit()) == 0;
     if (hidden && !bounded)
     {
       return true;

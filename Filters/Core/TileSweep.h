@@ -63,9 +63,9 @@ public:
   }
 
   /// @param order of the tile's spheres
-  /// @param octave of the tile's receivers; those before it were swept already
+  /// @param band of the tile's receivers; those before it were swept already
   /// @param seen receivers that show a texel are marked
-  void run(const DepthTile& tile, DepthOrder& order, const SweepScene::Octave& octave,
+  void run(const DepthTile& tile, DepthOrder& order, const SweepScene::Band& band,
     const SweptDirection& direction, SeenMarks& seen);
 
   [[nodiscard]] const SweepCounters& counters() const { return counters_; }
@@ -81,7 +81,7 @@ private:
   VisibilityRecords& records_;
   OccluderCells cells_;
   ClosedCells closed_;
-  SweepScene::Octave octave_{};
+  SweepScene::Band band_{};
   std::vector<GroupMask> mask_;
   SweepCounters counters_;
 };

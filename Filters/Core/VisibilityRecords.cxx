@@ -67,7 +67,8 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
     // What shows of one that only occludes inside others hides nothing that is outside.
     return surface != Surface::Buried;
   }
-  return cuts_[sphere].load(std::memory_order_relaxed)->exposure.clearInside(pattern, mask);
+  const CutSphere& cut = *cuts_[sphere].load(std::memory_order_relaxed);
+  return intersect(texels_.groups(), cut.exposure.ofPattern(pattern, texels_.groups()), mask);
 }
 
 VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
@@ -141,14 +142,13 @@ void VisibilityRecords::addBlock(const std::vector<FacingTexels>& directions,
   for (std::size_t index = 0; index < directions.size(); ++index)
   {
     const FacingTexels& facing = directions[index];
-    const auto add = [&](std::vector<float>& weights, std::size_t row)
+    addMasked(groups, facing.facing.data(), facing.weight.data(), open_.total.data());
+    addMasked(groups, facing.facing.data(), facing.weight.data(),
+      open_.subsets.data() + subset * texels_.slots());
+    for (std::size_t slot = 0; slot < texels_.slots(); ++slot)
     {
-      addMasked(
-        groups, facing.facing.data(), facing.weight.data(), weights.data() + row * texels_.slots());
-    };
-    add(open_.total, 0);
-    add(open_.subsets, subset);
-    add(open_.latestPatterns, patterns[index]);
+      open_.latestPatterns[TexelPatterns::index(patterns[index], slot)] += facing.weight[slot];
+    }
   }
   tbb::parallel_for(std::size_t(0), chunks_.size(),
     [&](std::size_t i)
@@ -197,16 +197,11 @@ void VisibilityRecords::addOverPoints(
   const CutSphere& cut, const std::vector<float>& terms, float* sums) const
 {
   const TexelExposure& exposure = cut.exposure;
-  const std::size_t groups = exposure.rimGroups.size();
-  std::array<MaskedTerms, TexelPatterns::Count> list;
-  for (std::size_t i = 0; i < groups; ++i)
+  for (std::size_t i = 0; i < exposure.rimGroups.size(); ++i)
   {
-    const float* first = terms.data() + exposure.rimGroups[i] * GroupSize;
-    for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
-    {
-      list[p] = { exposure.rim.data() + p * groups + i, first + p * texels_.slots() };
-    }
-    addMasked(1, list.data(), list.size(), sums + i * GroupSize);
+    const std::uint32_t g = exposure.rimGroups[i];
+    po::addOverPoints(exposure.bits.data() + g, texels_.groups(),
+      terms.data() + TexelPatterns::index(0, g * GroupSize), sums + i * GroupSize);
   }
 }
 
@@ -247,7 +242,7 @@ std::vector<float> VisibilityRecords::outsideWeights(const CutSphere& cut) const
 {
   const TexelExposure& exposure = cut.exposure;
   std::vector<float> weights(texels_.slots(), 0.0f);
-  addMasked(texels_.groups(), exposure.outside.data(), open_.total.data(), weights.data());
+  addMasked(texels_.groups(), exposure.ofPattern(0, 0), open_.total.data(), weights.data());
   std::vector<float> rim = cut.pastWeights;
   addOverPoints(cut, open_.latestPatterns, rim.data());
   for (std::size_t i = 0; i < rim.size(); ++i)
@@ -256,7 +251,7 @@ std::vector<float> VisibilityRecords::outsideWeights(const CutSphere& cut) const
     // A texel that no rim crosses: the same sum in another order. Keep the one that the sums are
     // compared with, so that an open texel is exactly 1.
     const bool whole = rim[i] > open_.total[slot] * (1 - 1e-4f);
-    weights[slot] = weights[slot] > 0 && !whole ? rim[i] : weights[slot];
+    weights[slot] = whole ? open_.total[slot] : rim[i];
   }
   return weights;
 }

@@ -36,8 +36,8 @@ struct OpenWeights
 {
   std::vector<float> total;          ///< [slots], summed in the order of the directions
   std::vector<float> subsets;        ///< [SweepSubsets][slots]
-  std::vector<float> pastPatterns;   ///< [patterns][slots], ended epochs
-  std::vector<float> latestPatterns; ///< [patterns][slots], this epoch
+  std::vector<float> pastPatterns;   ///< in the order of TexelPatterns, ended epochs
+  std::vector<float> latestPatterns; ///< in the order of TexelPatterns, this epoch
 };
 
 /// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
@@ -88,8 +88,8 @@ public:
   /// to.
   [[nodiscard]] std::vector<float> outsideWeights(const CutSphere& cut) const;
 
-  /// Adds, for the points of the rim groups that are outside, terms [patterns][slots] to sums
-  /// [rimGroups][GroupSize].
+  /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
+  /// to sums [rimGroups][GroupSize].
   void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
 
   [[nodiscard]] std::uint64_t buried() const;
