@@ -26,8 +26,10 @@ constexpr int EpochDirections = 4 * static_cast<int>(TexelPatterns::Count);
 /// directions' light, 8 / D of what a direction shows of it.
 constexpr std::size_t FullEvery = AxesPerBlock;
 
-/// Closed cells must spare this share of all visits, or they cost more than they save.
+/// Closed cells must spare this share of all visits, or they cost more than they save; more where
+/// offset masks make a visit cheap.
 constexpr double WorthwhileShare = 0.15;
+constexpr double WorthwhileWithMasks = 0.45;
 
 bool equalRadii(const SweepScene::Band& band)
 {
@@ -42,7 +44,10 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   , distance_(distance)
   , records_(records)
   , skips_(skips)
-  , useClosedCells_(skips.closedCells && !std::isfinite(distance))
+  , useOffsetMasks_(skips.offsetMasks && scene.bands().size() == 1 &&
+      equalRadii(scene.bands().front()) && OffsetMasks::fits(records.texels()) &&
+      !std::isfinite(distance))
+  , closedCellsPay_{ skips.closedCells && !std::isfinite(distance), closedCellsPay_[0] }
   , everSeen_(scene.size())
   , tileSweeps_([&records] { return TileWorkspace(records); })
 {
@@ -86,8 +91,8 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
       }
       facing.emplace_back(
         records_.texels(), records_.patterns(), pattern, jobs.back().basis, towardsLight, light);
-      jobs.back().directions.push_back(
-        { facing.back(), nullptr, pattern, patterns.size(), distance_, upward, useClosedCells_ });
+      jobs.back().directions.push_back({ facing.back(), nullptr, pattern, patterns.size(),
+        distance_, upward, jobs.back().full, closedCellsPay_[jobs.back().full ? 1 : 0] });
       patterns.push_back(pattern);
     }
   }
@@ -133,21 +138,32 @@ void SphereSweep::finishBlock()
       seen_.push_back(i);
     }
   }
-  if (blocks_ == 1)
+  // The first block shows whether closed cells are worth their cost where all spheres take part,
+  // the second where the buried ones are left out already.
+  if (blocks_ <= 2)
   {
-    const SweepCounters sum = counters();
+    const bool full = blocks_ == 1;
+    const SweepCounters sum = counters(full);
     const auto spared = static_cast<double>(sum.closed + sum.below);
-    useClosedCells_ =
-      useClosedCells_ && spared > WorthwhileShare * static_cast<double>(sum.visits + sum.below);
+    const auto all = static_cast<double>(sum.visits + sum.below);
+    bool& pay = closedCellsPay_[full ? 1 : 0];
+    pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
   }
 }
 
 SweepCounters SphereSweep::counters() const
 {
+  SweepCounters sum = counters(false);
+  sum.add(counters(true));
+  return sum;
+}
+
+SweepCounters SphereSweep::counters(bool full) const
+{
   SweepCounters sum;
   for (const TileWorkspace& work : tileSweeps_)
   {
-    sum.add(work.sweep.counters());
+    sum.add(work.sweep.counters(full));
   }
   return sum;
 }
@@ -198,8 +214,7 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   Workspace& work = workspaces_.local();
   project(job, work.projected);
   work.seen.assign(scene_.size(), 0);
-  if (skips_.offsetMasks && scene_.bands().size() == 1 && equalRadii(scene_.bands().front()) &&
-    OffsetMasks::fits(records_.texels()) && !std::isfinite(distance_))
+  if (useOffsetMasks_)
   {
     buildOffsetMasks(job, work);
   }

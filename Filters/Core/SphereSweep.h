@@ -8,6 +8,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
 #include <atomic>
 #include <vector>
 
@@ -82,13 +83,15 @@ private:
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
   [[nodiscard]] std::size_t nextPattern();
   void finishBlock();
+  [[nodiscard]] SweepCounters counters(bool full) const;
 
   const SweepScene& scene_;
   const Background& background_;
   float distance_;
   VisibilityRecords& records_;
   SweepSkips skips_;
-  bool useClosedCells_;
+  bool useOffsetMasks_;
+  std::array<bool, 2> closedCellsPay_; ///< where only spheres ever seen take part, where all do
   std::vector<std::atomic<std::uint8_t>> everSeen_;
   std::vector<unsigned> seen_; ///< the spheres that were ever seen, up to the last block
   tbb::enumerable_thread_specific<Workspace> workspaces_;

@@ -2,6 +2,7 @@
 #include "TexelMask.h"
 
 #include <cmath>
+#include <cstring>
 
 // Highway compiles this file once for each instruction set (SSE4, AVX2, AVX-512, NEON, ...) and
 // chooses when it runs. No sum is reordered, so that only fused multiply-adds make a difference.
@@ -20,9 +21,15 @@ using Floats = hn::CappedTag<float, GroupSize>;
 /// The lanes that are set, as the lowest bits of a number.
 inline unsigned bitsOf(Floats d, hn::Mask<Floats> lanes)
 {
-  HWY_ALIGN std::uint8_t bytes[8] = {};
+  HWY_ALIGN std::uint8_t bytes[8] = {}; // least significant first
   hn::StoreMaskBits(d, lanes, bytes);
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  std::uint16_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
+#else
   return bytes[0] | unsigned(bytes[1]) << 8;
+#endif
 }
 
 inline hn::Mask<Floats> lanesOf(Floats d, unsigned bits)
@@ -187,22 +194,20 @@ bool forEachBit(unsigned bits, const Hide& hide)
   return true;
 }
 
-/// Spheres right in front hide most: those first, so that hidden receivers are done with soon.
+/// Calls hide(chunk, covered, bits) until it returns false; spheres right in front, which hide
+/// most, come first in each chunk, so that hidden receivers are done with soon.
 template <typename Hide>
 bool hideBehindList(OccluderList occluders, const ProjectedSphere& receiver, const Hide& hide)
 {
-  for (const bool near : { true, false })
+  for (int index = occluders.first; index != OccluderList::Empty;)
   {
-    for (int index = occluders.first; index != OccluderList::Empty;)
+    const OccluderChunk& chunk = occluders.chunks[index];
+    const Meeting meeting = meet(chunk, receiver);
+    if (!hide(chunk, meeting.covered, meeting.near) || !hide(chunk, false, meeting.far))
     {
-      const OccluderChunk& chunk = occluders.chunks[index];
-      const Meeting meeting = meet(chunk, receiver);
-      if (!hide(chunk, meeting.covered, near ? meeting.near : meeting.far))
-      {
-        return false;
-      }
-      index = chunk.next;
+      return false;
     }
+    index = chunk.next;
   }
   return true;
 }
@@ -258,12 +263,37 @@ inline bool both(std::size_t groups, const GroupMask* other, GroupMask* mask)
   return rest != 0 || !hn::AllTrue(d, hn::Eq(left, hn::Zero(d)));
 }
 
+/// Takes what the occluders of the set bits hide, by their places in the table; false if nothing is
+/// left. That is asked at the end only, so that the loads need not wait for each other.
+inline bool lookUp(const OffsetMasks& masks, unsigned bits, const std::int32_t* column,
+  const std::int32_t* row, GroupMask* mask)
+{
+  if (bits == 0)
+  {
+    return true;
+  }
+  const Masks d;
+  bool open = false;
+  for (std::size_t g = 0; g < OffsetMasks::Groups; g += hn::Lanes(d))
+  {
+    auto left = hn::LoadU(d, mask + g);
+    forEachBit(bits,
+      [&](std::size_t i)
+      {
+        left = hn::And(left, hn::LoadU(d, masks.at(column[i], row[i]) + g));
+        return true;
+      });
+    hn::StoreU(left, d, mask + g);
+    open = open || !hn::AllTrue(d, hn::Eq(left, hn::Zero(d)));
+  }
+  return open;
+}
+
 bool behindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
   const ProjectedSphere& r, GroupMask* mask)
 {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
-  const std::size_t groups = facing.groups();
   const float touch = 4 * r.radius * r.radius;
   const auto scale = hn::Set(d, OffsetMasks::CellsPerRadius / r.radius);
   const auto originX = hn::Set(d, masks.originX());
@@ -294,9 +324,7 @@ bool behindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderL
       hn::Store(hn::ConvertTo(di, hn::MulAdd(dx, scale, originX)), di, column + lane);
       hn::Store(hn::ConvertTo(di, hn::MulAdd(dy, scale, originY)), di, row + lane);
     }
-    const bool open =
-      forEachBit(
-        apart, [&](std::size_t i) { return both(groups, masks.at(column[i], row[i]), mask); }) &&
+    const bool open = lookUp(masks, apart, column, row, mask) &&
       forEachBit(
         overlapping, [&](std::size_t i) { return hide(facing, seenFrom(r, chunk, i), mask); });
     if (!open)
@@ -312,7 +340,6 @@ void discs(const FacingTexels& facing, float a, float step, int count, float b, 
 {
   const Floats d;
   const auto one = hn::Set(d, 1.0f);
-  const std::size_t groups = facing.groups();
   for (const std::uint32_t g : facing.facingGroups)
   {
     for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
@@ -324,7 +351,7 @@ void discs(const FacingTexels& facing, float a, float step, int count, float b, 
       {
         const auto du = hn::Sub(u, hn::Set(d, a + static_cast<float>(k) * step));
         const unsigned inside = bitsOf(d, hn::Lt(hn::MulAdd(du, du, dv2), one));
-        GroupMask& mask = masks[static_cast<std::size_t>(k) * groups + g];
+        GroupMask& mask = masks[static_cast<std::size_t>(k) * OffsetMasks::Groups + g];
         mask = static_cast<GroupMask>(mask & ~(inside << lane));
       }
     }

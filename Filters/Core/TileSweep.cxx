@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TileSweep.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace po
@@ -14,6 +15,7 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
   {
     closed_.begin(tile, band.largestRadius);
   }
+  SweepCounters& counters = counters_[direction.full ? 1 : 0];
   std::uint64_t visited = 0;
   const std::size_t slabs = order.slabs();
   for (std::size_t i = 0; i < slabs; ++i)
@@ -26,14 +28,14 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
         direction.upward ? slab.last[-1 - static_cast<std::ptrdiff_t>(k)] : slab.first[k];
       if (!visit(tile.first[DepthOrder::place(key)], direction, seen))
       {
-        counters_.visits += visited;
-        counters_.below += tile.size() - visited;
+        counters.visits += visited;
+        counters.below += tile.size() - visited;
         return;
       }
       ++visited;
     }
   }
-  counters_.visits += visited;
+  counters.visits += visited;
 }
 
 bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, SeenMarks& seen)
@@ -63,7 +65,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
       }
       if (closed_.hides(sphere))
       {
-        ++counters_.closed;
+        ++counters_[direction.full ? 1 : 0].closed;
         return true;
       }
     }
@@ -88,7 +90,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
 bool TileSweep::sees(
   const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
 {
-  mask_ = direction.facing.facing;
+  std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
   if (!passes(cells_.cellOf(sphere), sphere, direction) ||
     !passes(cells_.wide(), sphere, direction) ||
     !records_.clearInside(sphere.index, direction.pattern, mask_.data()))

@@ -10,6 +10,8 @@
 #include "TexelMask.h"
 #include "VisibilityRecords.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct SweptDirection
   std::size_t index;              ///< in the block
   float distance;                 ///< light is blocked within it: local, infinite when unbounded
   bool upward;                    ///< the light comes from where z grows
+  bool full;                      ///< all spheres take part, not only those ever seen
   bool useClosedCells;
 
   /// Of this direction in marks by sphere.
@@ -59,6 +62,7 @@ class TileSweep
 public:
   explicit TileSweep(VisibilityRecords& records)
     : records_(records)
+    , mask_(std::max(OffsetMasks::Groups, records.texels().groups()), 0)
   {
   }
 
@@ -68,7 +72,8 @@ public:
   void run(const DepthTile& tile, DepthOrder& order, const SweepScene::Band& band,
     const SweptDirection& direction, SeenMarks& seen);
 
-  [[nodiscard]] const SweepCounters& counters() const { return counters_; }
+  /// @param full of directions in which all spheres took part, or of the others
+  [[nodiscard]] const SweepCounters& counters(bool full) const { return counters_[full ? 1 : 0]; }
 
 private:
   /// False when nothing below can be seen.
@@ -82,8 +87,8 @@ private:
   OccluderCells cells_;
   ClosedCells closed_;
   SweepScene::Band band_{};
-  std::vector<GroupMask> mask_;
-  SweepCounters counters_;
+  std::vector<GroupMask> mask_; ///< of the sphere at hand
+  std::array<SweepCounters, 2> counters_;
 };
 }
 
