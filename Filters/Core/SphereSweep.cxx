@@ -16,9 +16,7 @@ namespace po
 {
 namespace
 {
-constexpr std::size_t AxesPerBlock = SweepBlock / 2;
-
-/// Directions between two changes of the points in the texels: each point serves four of them.
+/// Directions between two changes of the points in the texels: each point serves two axes.
 constexpr int EpochDirections = 4 * static_cast<int>(TexelPatterns::Count);
 
 /// After the first block, spheres that were never seen take part in every eighth direction only. A
@@ -70,31 +68,13 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
   {
     records_.nextEpoch();
   }
-  std::vector<FacingTexels> facing;
-  std::vector<std::size_t> patterns;
-  facing.reserve(SweepBlock); // jobs refer to them
   std::vector<AxisJob> jobs;
+  std::vector<AxisWeights> weights;
   for (std::size_t i = 0; i < axes.size(); ++i)
   {
-    const bool full = blocks_ == 0 || i % FullEvery == 0 || std::isfinite(distance_);
-    jobs.push_back({ axes[i], planeBasis(axes[i]), {}, full || !skips_.neverSeen });
-    for (const bool upward : { true, false })
-    {
-      const Vec3d towardsLight = upward ? axes[i] : -axes[i];
-      const double light = luminance(background_, towardsLight);
-      const std::size_t pattern = nextPattern();
-      if (light <= 0 && skips_.blackSky)
-      {
-        ++blackDirections_;
-        progress.advance(scene_.size());
-        continue;
-      }
-      facing.emplace_back(
-        records_.texels(), records_.patterns(), pattern, jobs.back().basis, towardsLight, light);
-      jobs.back().directions.push_back({ facing.back(), nullptr, pattern, patterns.size(),
-        distance_, upward, jobs.back().full, closedCellsPay_[jobs.back().full ? 1 : 0] });
-      patterns.push_back(pattern);
-    }
+    jobs.push_back(makeJob(axes[i], i));
+    weights.push_back(weightsOf(jobs.back()));
+    progress.advance((2 - jobs.back().directions.size()) * scene_.size());
   }
   tbb::parallel_for(
     std::size_t(0), jobs.size(), [&](std::size_t i) { sweepAxis(jobs[i], progress); });
@@ -102,7 +82,7 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
   {
     return;
   }
-  records_.addBlock(facing, patterns, blocks_ % SweepSubsets);
+  records_.addBlock(weights, blocks_ % SweepSubsets);
   for (const AxisJob& job : jobs)
   {
     neverSeen_ += job.full ? 0 : job.directions.size() * (scene_.size() - seen_.size());
@@ -126,6 +106,48 @@ std::size_t SphereSweep::nextPattern()
   const std::size_t pattern = patternOrder_.back();
   patternOrder_.pop_back();
   return pattern;
+}
+
+SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index)
+{
+  const bool full =
+    blocks_ == 0 || index % FullEvery == 0 || std::isfinite(distance_) || !skips_.neverSeen;
+  AxisJob job{ axis, planeBasis(axis), nextPattern(), full, {} };
+  for (const bool upward : { true, false })
+  {
+    const Vec3d towardsLight = upward ? axis : -axis;
+    const double light = luminance(background_, towardsLight);
+    if (light <= 0 && skips_.blackSky)
+    {
+      ++blackDirections_;
+      continue;
+    }
+    job.directions.push_back({ FacingTexels(records_.texels(), records_.patterns(), job.pattern,
+                                 job.basis, towardsLight),
+      light, nullptr, job.pattern, index, distance_, upward, full, closedCellsPay_[full ? 1 : 0] });
+  }
+  return job;
+}
+
+AxisWeights SphereSweep::weightsOf(const AxisJob& job) const
+{
+  AxisWeights weights{ job.pattern, std::vector<GroupMask>(records_.texels().groups(), 0),
+    std::vector<float>(records_.texels().slots(), 0.0f) };
+  for (const SweptDirection& direction : job.directions)
+  {
+    for (std::size_t slot = 0; slot < weights.weight.size(); ++slot)
+    {
+      const GroupMask bit = static_cast<GroupMask>(1u << (slot % GroupSize));
+      GroupMask& lit = weights.lit[slot / GroupSize];
+      if ((direction.facing.facing[slot / GroupSize] & bit) != 0)
+      {
+        lit = static_cast<GroupMask>(lit | bit);
+        weights.weight[slot] =
+          static_cast<float>(direction.luminance * static_cast<double>(direction.facing.w[slot]));
+      }
+    }
+  }
+  return weights;
 }
 
 void SphereSweep::finishBlock()
@@ -195,7 +217,7 @@ void SphereSweep::project(const AxisJob& job, std::vector<ProjectedSphere>& proj
 
 void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const
 {
-  Random random(mixBits(static_cast<std::uint64_t>(directions_)), job.directions.front().index, 0);
+  Random random(mixBits(static_cast<std::uint64_t>(directions_)), job.directions.front().axis, 0);
   for (std::size_t i = 0; i < job.directions.size(); ++i)
   {
     const auto shiftX = static_cast<float>(random.uniform());

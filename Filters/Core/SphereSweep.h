@@ -50,8 +50,9 @@ private:
   {
     Vec3d axis;
     PlaneBasis basis;
-    std::vector<SweptDirection> directions; ///< one if the background is black in the other
+    std::size_t pattern;                    ///< of the points in the texels, for both directions
     bool full;                              ///< all spheres take part
+    std::vector<SweptDirection> directions; ///< one if the background is black in the other
   };
 
   /// Memory of an axis that is being swept.
@@ -76,6 +77,8 @@ private:
   };
 
   void sweepBlock(const std::vector<Vec3d>& axes, Progress& progress);
+  [[nodiscard]] AxisJob makeJob(Vec3d axis, std::size_t index);
+  [[nodiscard]] AxisWeights weightsOf(const AxisJob& job) const;
   void sweepAxis(AxisJob& job, Progress& progress);
   void sweepBand(
     const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);

@@ -10,6 +10,8 @@ namespace po
 {
 namespace
 {
+constexpr int DirectionsPerBlock = 2 * static_cast<int>(AxesPerBlock);
+
 /// Directions of the first look with a target error.
 constexpr int FirstDirections = 128;
 
@@ -17,7 +19,7 @@ constexpr int FirstDirections = 128;
 int moreDirections(int directions, double excess)
 {
   const double factor = std::clamp(1.1 * excess * excess, 1.25, 8.0);
-  const double total = std::ceil(directions * factor / SweepBlock) * SweepBlock;
+  const double total = std::ceil(directions * factor / DirectionsPerBlock) * DirectionsPerBlock;
   return static_cast<int>(std::min<double>(total, SweepEstimator::MaximumDirections));
 }
 
@@ -48,9 +50,9 @@ int sweepDirectionsForSamples(int samplesPerTexel)
   // (pack) to 140 (molecule); 200 rays, 320 (molecule) to 440 (gas). Of 16 rays it is known only
   // that 64 directions are better in pack, overlap, gas, foam and molecule.
   const double directions = 144 * std::pow(samplesPerTexel / 49.0, 0.9);
-  const double blocks = std::ceil(directions / SweepBlock);
+  const double blocks = std::ceil(directions / DirectionsPerBlock);
   return static_cast<int>(
-    std::clamp(blocks * SweepBlock, 16.0, double(SweepEstimator::MaximumDirections)));
+    std::clamp(blocks * DirectionsPerBlock, 16.0, double(SweepEstimator::MaximumDirections)));
 }
 
 void SweepEstimator::estimate(const BakeScene& scene, const std::vector<unsigned>& particles,

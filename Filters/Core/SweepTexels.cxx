@@ -89,20 +89,19 @@ TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std:
 }
 
 FacingTexels::FacingTexels(const SweepTexels& texels, const TexelPatterns& patterns,
-  std::size_t pattern, const PlaneBasis& basis, Vec3d direction, double luminance)
+  std::size_t pattern, const PlaneBasis& basis, Vec3d direction)
   : facing(texels.groups(), 0)
 {
   for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
     const Vec3d n = patterns.normal(pattern, slot).as<double>();
-    const double height = dot(n, direction);
-    const bool faces = static_cast<float>(height) > 0;
+    const auto height = static_cast<float>(dot(n, direction));
+    const bool faces = height > 0;
     GroupMask& mask = facing[slot / GroupSize];
     mask = static_cast<GroupMask>(mask | (unsigned(faces) << (slot % GroupSize)));
     u.push_back(static_cast<float>(dot(n, basis.x)));
     v.push_back(static_cast<float>(dot(n, basis.y)));
-    w.push_back(static_cast<float>(height));
-    weight.push_back(faces ? static_cast<float>(height * luminance) : 0.0f);
+    w.push_back(height);
   }
   for (std::uint32_t g = 0; g < facing.size(); ++g)
   {

@@ -92,15 +92,14 @@ struct TexelPatterns
 struct FacingTexels
 {
   /// @param basis of the projection across; it may serve the opposite direction too
-  /// @param luminance of the background in this direction
   FacingTexels(const SweepTexels& texels, const TexelPatterns& patterns, std::size_t pattern,
-    const PlaneBasis& basis, Vec3d direction, double luminance);
+    const PlaneBasis& basis, Vec3d direction);
 
   [[nodiscard]] std::size_t groups() const { return facing.size(); }
 
   std::vector<std::uint32_t> facingGroups; ///< those with a facing texel
   std::vector<GroupMask> facing;           ///< the texels with w > 0
-  std::vector<float> u, v, w, weight;      ///< weight = w * luminance, 0 where w <= 0
+  std::vector<float> u, v, w;
 };
 }
 

@@ -99,7 +99,7 @@ bool TileSweep::sees(
   }
   if (tileSphere.role == TileRole::Receiver)
   {
-    records_.keep(sphere.index, direction.index, mask_.data());
+    records_.keep(sphere.index, direction.axis, mask_.data());
   }
   return true;
 }

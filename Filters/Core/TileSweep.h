@@ -20,10 +20,11 @@ namespace po
 /// One of the two opposite directions that share a projection.
 struct SweptDirection
 {
-  const FacingTexels& facing;
+  FacingTexels facing;
+  double luminance;               ///< of the background
   const OffsetMasks* offsetMasks; ///< null where pairs of equal spheres are not looked up
   std::size_t pattern;            ///< of the points in the texels
-  std::size_t index;              ///< in the block
+  std::size_t axis;               ///< in the block
   float distance;                 ///< light is blocked within it: local, infinite when unbounded
   bool upward;                    ///< the light comes from where z grows
   bool full;                      ///< all spheres take part, not only those ever seen

@@ -116,13 +116,13 @@ VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
   }
   auto made = std::make_unique<Chunk>();
   made->sums = std::make_unique<float[]>(ChunkSpheres * texels_.slots());
-  made->masks.reset(new GroupMask[SweepBlock * ChunkSpheres * texels_.groups()]);
+  made->masks.reset(new GroupMask[AxesPerBlock * ChunkSpheres * texels_.groups()]);
   return *(place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel)
       ? made.release()
       : known);
 }
 
-void VisibilityRecords::keep(unsigned sphere, std::size_t index, const GroupMask* mask)
+void VisibilityRecords::keep(unsigned sphere, std::size_t axis, const GroupMask* mask)
 {
   if (surface_[sphere].load(std::memory_order_relaxed) == Surface::NotListed)
   {
@@ -130,24 +130,30 @@ void VisibilityRecords::keep(unsigned sphere, std::size_t index, const GroupMask
   }
   Chunk& chunk = findOrMakeChunk(sphere);
   const std::size_t place = sphere % ChunkSpheres;
-  GroupMask* kept = chunk.masks.get() + (index * ChunkSpheres + place) * texels_.groups();
-  std::copy(mask, mask + texels_.groups(), kept);
-  chunk.seen[index][place] = 1;
+  const std::size_t groups = texels_.groups();
+  GroupMask* kept = chunk.masks.get() + (axis * ChunkSpheres + place) * groups;
+  if (chunk.seen[axis][place] == 0)
+  {
+    chunk.seen[axis][place] = 1;
+    std::copy(mask, mask + groups, kept);
+    return;
+  }
+  for (std::size_t g = 0; g < groups; ++g)
+  {
+    kept[g] = static_cast<GroupMask>(kept[g] | mask[g]);
+  }
 }
 
-void VisibilityRecords::addBlock(const std::vector<FacingTexels>& directions,
-  const std::vector<std::size_t>& patterns, std::size_t subset)
+void VisibilityRecords::addBlock(const std::vector<AxisWeights>& axes, std::size_t subset)
 {
-  const std::size_t groups = texels_.groups();
-  for (std::size_t index = 0; index < directions.size(); ++index)
+  for (const AxisWeights& axis : axes)
   {
-    const FacingTexels& facing = directions[index];
-    addMasked(groups, facing.facing.data(), facing.weight.data(), open_.total.data());
-    addMasked(groups, facing.facing.data(), facing.weight.data(),
-      open_.subsets.data() + subset * texels_.slots());
+    const MaskedTerms terms{ axis.lit.data(), axis.weight.data() };
+    addMasked(texels_.groups(), &terms, 1, open_.total.data());
+    addMasked(texels_.groups(), &terms, 1, open_.subsets.data() + subset * texels_.slots());
     for (std::size_t slot = 0; slot < texels_.slots(); ++slot)
     {
-      open_.latestPatterns[TexelPatterns::index(patterns[index], slot)] += facing.weight[slot];
+      open_.latestPatterns[TexelPatterns::index(axis.pattern, slot)] += axis.weight[slot];
     }
   }
   tbb::parallel_for(std::size_t(0), chunks_.size(),
@@ -155,27 +161,27 @@ void VisibilityRecords::addBlock(const std::vector<FacingTexels>& directions,
     {
       if (chunks_[i].load(std::memory_order_relaxed) != nullptr)
       {
-        addChunk(i, directions, subset);
+        addChunk(i, axes, subset);
       }
     });
 }
 
 void VisibilityRecords::addChunk(
-  std::size_t index, const std::vector<FacingTexels>& directions, std::size_t subset)
+  std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset)
 {
   Chunk& chunk = *chunks_[index].load(std::memory_order_relaxed);
   const std::size_t groups = texels_.groups();
   for (std::size_t place = 0; place < ChunkSpheres; ++place)
   {
-    std::array<MaskedTerms, SweepBlock> terms;
+    std::array<MaskedTerms, AxesPerBlock> terms;
     std::size_t count = 0;
-    for (std::size_t k = 0; k < directions.size(); ++k)
+    for (std::size_t k = 0; k < axes.size(); ++k)
     {
       if (chunk.seen[k][place] != 0)
       {
         chunk.seen[k][place] = 0;
         terms[count++] = { chunk.masks.get() + (k * ChunkSpheres + place) * groups,
-          directions[k].weight.data() };
+          axes[k].weight.data() };
       }
     }
     if (count == 0)

@@ -16,11 +16,11 @@
 
 namespace po
 {
-/// Directions are swept in blocks of this many: in parallel, their masks kept, then summed in
-/// order.
-inline constexpr std::size_t SweepBlock = 16;
+/// Axes, of two opposite directions each, are swept in blocks of this many: in parallel, their
+/// masks kept, then summed in order.
+inline constexpr std::size_t AxesPerBlock = 8;
 
-/// Interleaved subsets of directions whose spread is the error bar.
+/// Interleaved subsets of blocks whose spread is the error bar.
 inline constexpr std::size_t SweepSubsets = 4;
 
 /// What a sweep needs to know of a sphere that others overlap.
@@ -29,6 +29,14 @@ struct CutSphere
   std::vector<BuriedCap> caps;
   TexelExposure exposure;
   std::vector<float> pastWeights; ///< [rimGroups][GroupSize] of exposed points, of ended epochs
+};
+
+/// What a texel's point receives of an axis: it faces one of the two directions at most.
+struct AxisWeights
+{
+  std::size_t pattern;        ///< of the points
+  std::vector<GroupMask> lit; ///< [groups] texels that face a direction that is not black
+  std::vector<float> weight;  ///< [slots] height over the horizon times luminance, 0 if not lit
 };
 
 /// Weights that an open texel gets: what all spheres have in common.
@@ -41,9 +49,9 @@ struct OpenWeights
 };
 
 /// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
-/// 16 x 16 texels 1.5 KiB a sphere, and 3 KiB more where others overlap it.
+/// 16 x 16 texels 1.25 KiB a sphere, and 2.5 KiB more where others overlap it.
 ///
-/// Threads may call clearInside() and keep() for different directions at once. All results are
+/// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
 class VisibilityRecords
 {
@@ -65,12 +73,12 @@ public:
   /// the first time; false if none is left.
   bool clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask);
 
-  /// Keeps what direction `index` of the block sees of a sphere.
-  void keep(unsigned sphere, std::size_t index, const GroupMask* mask);
+  /// Keeps what a direction of axis `axis` of the block sees of a sphere, beside what the other
+  /// direction does.
+  void keep(unsigned sphere, std::size_t axis, const GroupMask* mask);
 
   /// Adds the weights of a block. Its masks are gone then.
-  void addBlock(const std::vector<FacingTexels>& directions,
-    const std::vector<std::size_t>& patterns, std::size_t subset);
+  void addBlock(const std::vector<AxisWeights>& axes, std::size_t subset);
 
   /// Goes on with new points in the texels.
   void nextEpoch();
@@ -107,20 +115,20 @@ private:
 
   static constexpr std::size_t ChunkSpheres = 16;
 
-  /// Neighbouring spheres. Masks and marks are kept by direction: a direction writes to neighbours
-  /// in memory, and two directions never to the same byte.
+  /// Neighbouring spheres. Masks and marks are kept by axis: an axis writes to neighbours in
+  /// memory, and two axes never to the same byte.
   struct Chunk
   {
     std::unique_ptr<float[]> sums;      ///< [ChunkSpheres][slots]
-    std::unique_ptr<GroupMask[]> masks; ///< [SweepBlock][ChunkSpheres][groups] where seen
-    std::array<std::array<std::uint8_t, ChunkSpheres>, SweepBlock> seen{};
+    std::unique_ptr<GroupMask[]> masks; ///< [AxesPerBlock][ChunkSpheres][groups] where seen
+    std::array<std::array<std::uint8_t, ChunkSpheres>, AxesPerBlock> seen{};
     std::array<std::uint8_t, ChunkSpheres> everSeen{};
   };
 
   [[nodiscard]] Surface surfaceOf(unsigned sphere);
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
   Chunk& findOrMakeChunk(unsigned sphere);
-  void addChunk(std::size_t index, const std::vector<FacingTexels>& directions, std::size_t subset);
+  void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
 
   const BakeScene& scene_;
   const SweepScene& order_;

@@ -117,7 +117,7 @@ TEST(TexelMask, HidesWhatThePlainFormulaHides)
   const po::SweepTexels texels(16);
   const po::TexelPatterns patterns(texels, 1, 0);
   const po::Vec3d direction = po::normalized(po::Vec3d{ 1, 2, 3 });
-  const po::FacingTexels facing(texels, patterns, 5, po::planeBasis(direction), direction, 1);
+  const po::FacingTexels facing(texels, patterns, 5, po::planeBasis(direction), direction);
   po::Random random(1, 2, 3);
   for (int trial = 0; trial < 200; ++trial)
   {
