@@ -43,6 +43,7 @@ SweepTextures::SweepTextures(const VisibilityRecords& records, const Background&
   irradiance_ = uniform_ ? ones_ : irradianceOfPoints(texels, records.patterns(), background);
   open_ = openTexels();
   const int side = texels.resolution() / texels.refinement();
+  areas_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.0f);
   for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
     const std::uint32_t texel = texels.texelOfSlot(slot);
@@ -53,6 +54,7 @@ SweepTextures::SweepTextures(const VisibilityRecords& records, const Background&
       const int coarseRow = row / texels.refinement();
       parts_.push_back({ slot, texelIndex(side, coarseRow, column / texels.refinement()),
         static_cast<float>(texelArea(texels.resolution(), row) / texelArea(side, coarseRow)) });
+      areas_[parts_.back().texel] += parts_.back().area;
     }
   }
 }
@@ -123,6 +125,7 @@ void SweepTextures::coarsen(const FineTexels& fine, const float* sums, const flo
   for (int i = 0; i < side * side; ++i)
   {
     values[i] = shares[i] > 0 ? values[i] / shares[i] : 0.0f;
+    shares[i] /= areas_[static_cast<std::size_t>(i)];
   }
 }
 

@@ -64,6 +64,7 @@ private:
     float area; ///< its share of the texel's area
   };
   std::vector<Part> parts_;
+  std::vector<float> areas_; ///< of the texels: the sums of their parts, 1 up to rounding
 };
 }
 
