@@ -18,7 +18,7 @@ using GroupMask = std::uint16_t;
 inline constexpr GroupMask AllOfGroup = 0xFFFF;
 
 /// Points that every texel has, one for each sweep direction in turn.
-inline constexpr std::size_t PointsPerTexel = 64;
+inline constexpr std::size_t PointsPerTexel = 32;
 
 /// Discs on the unit sphere, [slots] each: their centres, 0 in empty slots, and the angle between
 /// them and the farthest point of the texel.

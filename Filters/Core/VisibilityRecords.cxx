@@ -98,9 +98,9 @@ std::unique_ptr<CutSphere> VisibilityRecords::makeCut(const std::vector<BuriedCa
   auto cut = std::make_unique<CutSphere>();
   cut->caps = caps;
   cut->exposure = exposeTexels(texels_, patterns_, cut->caps);
-  cut->pastWeights.assign(cut->exposure.rimGroups.size() * GroupSize, 0.0f);
   if (epoch_ > 0)
   {
+    cut->pastWeights.assign(cut->exposure.rimGroups.size() * GroupSize, 0.0f);
     addOverPoints(*cut, open_.pastPatterns, cut->pastWeights.data());
   }
   return cut;
@@ -218,6 +218,7 @@ void VisibilityRecords::nextEpoch()
     [&](std::size_t i)
     {
       CutSphere& cut = *ownedCuts_[i];
+      cut.pastWeights.resize(cut.exposure.rimGroups.size() * GroupSize, 0.0f);
       addOverPoints(cut, open_.latestPatterns, cut.pastWeights.data());
       cut.exposure = exposeTexels(texels_, patterns_, cut.caps);
     });
@@ -250,6 +251,7 @@ std::vector<float> VisibilityRecords::outsideWeights(const CutSphere& cut) const
   std::vector<float> weights(texels_.slots(), 0.0f);
   addMasked(texels_.groups(), exposure.ofPattern(0, 0), open_.total.data(), weights.data());
   std::vector<float> rim = cut.pastWeights;
+  rim.resize(exposure.rimGroups.size() * GroupSize, 0.0f);
   addOverPoints(cut, open_.latestPatterns, rim.data());
   for (std::size_t i = 0; i < rim.size(); ++i)
   {

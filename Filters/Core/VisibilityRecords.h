@@ -28,7 +28,8 @@ struct CutSphere
 {
   std::vector<BuriedCap> caps;
   TexelExposure exposure;
-  std::vector<float> pastWeights; ///< [rimGroups][GroupSize] of exposed points, of ended epochs
+  std::vector<float>
+    pastWeights; ///< [rimGroups][GroupSize] of exposed points, of ended epochs if any
 };
 
 /// What a texel's point receives of an axis: it faces one of the two directions at most.
