@@ -65,13 +65,19 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
 {
 }
 
-void ProgressiveSweep::refine(int directions, Progress& progress)
+void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
 {
-  const int axes = (directions + 1) / 2;
-  progress.begin(2 * static_cast<std::uint64_t>(axes) * order_.size());
-  const std::uint64_t seed = rounds_ == 0 ? settings_.seed : mixBits(settings_.seed + rounds_);
-  sweep_.run(sweepAxes(axes, seed), progress);
-  ++rounds_;
+  const std::size_t sets = spread == Spread::Evenly ? 1 : SweepSubsets;
+  const int perSet = 2 * static_cast<int>(sets);
+  const int axes = (directions + perSet - 1) / perSet;
+  progress.begin(2 * sets * static_cast<std::uint64_t>(axes) * order_.size());
+  for (std::size_t set = 0; set < sets && !progress.aborted(); ++set)
+  {
+    const std::uint64_t seed = rounds_ == 0 ? settings_.seed : mixBits(settings_.seed + rounds_);
+    const auto subset = sets > 1 ? std::optional<std::size_t>(set) : std::nullopt;
+    sweep_.run(sweepAxes(axes, seed), progress, subset);
+    ++rounds_;
+  }
 }
 
 int ProgressiveSweep::directions() const

@@ -24,15 +24,23 @@ public:
   ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
     const BakeSettings& settings, const SweepSkips& skips = {});
 
-  /// Sweeps that many more directions (an odd number is rounded up), spread evenly by themselves.
-  /// Returns early when `progress` says so; the sweep cannot go on then.
-  void refine(int directions, Progress& progress);
+  /// How further directions are spread.
+  enum class Spread
+  {
+    Evenly,   ///< one lattice, which leaves the smallest error
+    InSubsets ///< four lattices turned at random, whose spread is an honest error bar
+  };
+
+  /// Sweeps that many more directions, rounded up to whole axes (two opposite directions) and
+  /// subsets. Returns early when `progress` says so; the sweep cannot go on then.
+  void refine(int directions, Progress& progress, Spread spread = Spread::Evenly);
 
   /// Swept so far, without those that the background makes black.
   [[nodiscard]] int directions() const;
 
-  /// RMS error of linear visibility, from the spread of subsets of the directions over up to 256
-  /// particles; 0 with less than one direction for each of the four subsets of a block of 16.
+  /// RMS error of linear visibility, from the spread of four subsets of the directions over up to
+  /// 256 particles. Subsets of one lattice complement each other: with Spread::Evenly the estimate
+  /// is too large, up to twice where much is hidden. 0 where a subset is still empty.
   [[nodiscard]] double estimatedError() const;
 
   /// Hands the textures out in the order of the particles, on the calling thread.

@@ -51,18 +51,19 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
 {
 }
 
-void SphereSweep::run(const std::vector<Vec3d>& axes, Progress& progress)
+void SphereSweep::run(
+  const std::vector<Vec3d>& axes, Progress& progress, std::optional<std::size_t> subset)
 {
   for (std::size_t first = 0; first < axes.size() && !progress.aborted(); first += AxesPerBlock)
   {
     const std::size_t last = std::min(first + AxesPerBlock, axes.size());
     sweepBlock({ axes.begin() + static_cast<std::ptrdiff_t>(first),
                  axes.begin() + static_cast<std::ptrdiff_t>(last) },
-      progress);
+      subset.value_or(blocks_ % SweepSubsets), progress);
   }
 }
 
-void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
+void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset, Progress& progress)
 {
   for (; epoch_ < directions_ / EpochDirections; ++epoch_)
   {
@@ -82,7 +83,7 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
   {
     return;
   }
-  records_.addBlock(weights, blocks_ % SweepSubsets);
+  records_.addBlock(weights, subset);
   for (const AxisJob& job : jobs)
   {
     neverSeen_ += job.full ? 0 : job.directions.size() * (scene_.size() - seen_.size());

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <atomic>
+#include <optional>
 #include <vector>
 
 namespace po
@@ -33,7 +34,9 @@ public:
 
   /// Goes on with more axes: the directions along them and their opposites. Returns early when
   /// `progress` says so. A unit of progress is one sphere in one direction.
-  void run(const std::vector<Vec3d>& axes, Progress& progress);
+  /// @param subset that they count for, of SweepSubsets; by default the blocks take turns
+  void run(const std::vector<Vec3d>& axes, Progress& progress,
+    std::optional<std::size_t> subset = std::nullopt);
 
   /// Directions so far, those that the background makes black included.
   [[nodiscard]] int directions() const { return directions_; }
@@ -76,7 +79,7 @@ private:
     TileSweep sweep;
   };
 
-  void sweepBlock(const std::vector<Vec3d>& axes, Progress& progress);
+  void sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset, Progress& progress);
   [[nodiscard]] AxisJob makeJob(Vec3d axis, std::size_t index);
   [[nodiscard]] AxisWeights weightsOf(const AxisJob& job) const;
   void sweepAxis(AxisJob& job, Progress& progress);

@@ -26,8 +26,7 @@ public:
   void fill(unsigned sphere, float* values, float* shares) const;
 
   /// Squared standard errors of a watched sphere's texels, from the spread of the subsets of
-  /// directions as if these were independent. Subsets of a lattice complement each other: measured,
-  /// the true error was mostly below the estimate, down to half of it where much is hidden.
+  /// directions as if these were independent.
   struct SquaredError
   {
     double sum = 0;  ///< weighted by outside area

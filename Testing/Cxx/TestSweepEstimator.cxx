@@ -40,6 +40,18 @@ Difference compare(const Estimates& ours, const Estimates& judge, int resolution
   return { std::sqrt(difference.rms / area), difference.bias / area };
 }
 
+std::vector<po::Sphere> familySpheres(po::SyntheticFamily family, std::size_t count)
+{
+  const po::SyntheticSpheres made = po::makeSyntheticSpheres(family, count, 1);
+  std::vector<po::Sphere> spheres;
+  for (std::size_t i = 0; i < made.radii.size(); ++i)
+  {
+    const auto& c = made.centers[i];
+    spheres.push_back({ c[0], c[1], c[2], made.radii[i] });
+  }
+  return spheres;
+}
+
 po::SweepEstimator sweepOf(int directions)
 {
   po::SweepOptions options;
@@ -118,14 +130,7 @@ TEST(SweepEstimator, AgreesWithReferenceInAllFamilies)
          po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
   {
     SCOPED_TRACE(static_cast<int>(family));
-    const po::SyntheticSpheres made = po::makeSyntheticSpheres(family, 150, 1);
-    std::vector<po::Sphere> spheres;
-    for (std::size_t i = 0; i < made.radii.size(); ++i)
-    {
-      const auto& c = made.centers[i];
-      spheres.push_back({ c[0], c[1], c[2], made.radii[i] });
-    }
-    expectLikeReference(spheres, floatSettings(4, 49), 0.012);
+    expectLikeReference(familySpheres(family, 150), floatSettings(4, 49), 0.012);
   }
 }
 
@@ -235,20 +240,68 @@ TEST(SweepEstimator, IsAsGoodAsTheRaysThatItStandsFor)
   }
 }
 
-TEST(SweepEstimator, ReachesATargetErrorAndReportsIt)
+TEST(SweepEstimator, KeepsThePromiseOfATargetError)
 {
-  const po::SphereCloud cloud = cloudOf(mixedScene());
-  const po::BakeScene scene(cloud);
-  const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, floatSettings(6, 20000));
-  for (const double target : { 0.05, 0.02, 0.01 })
+  // 72 bakes with fixed seeds: 5 families and a scene of unequal, overlapping spheres, 3 targets, 4
+  // seeds. The promise is 95 %; if it were only 85 %, 4 or fewer failures would come in 1 run of
+  // 100.
+  std::vector<std::vector<po::Sphere>> scenes{ mixedScene() };
+  for (const po::SyntheticFamily family : { po::SyntheticFamily::Pack, po::SyntheticFamily::Overlap,
+         po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
   {
-    po::SweepOptions options;
-    options.targetError = target;
-    const po::SweepEstimator sweep(options);
-    const Estimates ours = estimateAll(sweep, scene, floatSettings(6, 1));
-    EXPECT_TRUE(sweep.report().reached);
-    EXPECT_LE(sweep.report().estimatedError, target);
-    EXPECT_LT(compare(ours, judge, 6).rms, 1.1 * target);
+    scenes.push_back(familySpheres(family, 200));
+  }
+  int failures = 0;
+  for (const std::vector<po::Sphere>& spheres : scenes)
+  {
+    const po::SphereCloud cloud = cloudOf(spheres);
+    const po::BakeScene scene(cloud);
+    po::BakeSettings settings = floatSettings(6, 6000);
+    settings.seed = 77;
+    const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, settings);
+    for (const double target : { 0.05, 0.025, 0.0125 })
+    {
+      for (const std::uint64_t seed : { 1, 2, 3, 4 })
+      {
+        settings.seed = seed;
+        po::SweepOptions options;
+        options.targetError = target;
+        const po::SweepEstimator sweep(options);
+        const Estimates ours = estimateAll(sweep, scene, settings);
+        EXPECT_TRUE(sweep.report().reached);
+        EXPECT_LE(sweep.report().estimatedError, target);
+        failures += compare(ours, judge, 6).rms > target ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_LE(failures, 4);
+}
+
+TEST(SweepEstimator, HasNoBias)
+{
+  // Over seeds errors average out, a bias does not: 24 bakes with 144 directions of each family.
+  // The judge's own mean is known to 0.0002.
+  for (const po::SyntheticFamily family : { po::SyntheticFamily::Pack, po::SyntheticFamily::Overlap,
+         po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
+  {
+    SCOPED_TRACE(static_cast<int>(family));
+    const po::SphereCloud cloud = cloudOf(familySpheres(family, 200));
+    const po::BakeScene scene(cloud);
+    po::BakeSettings settings = floatSettings(6, 6000);
+    settings.seed = 77;
+    const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, settings);
+    double sum = 0;
+    double squares = 0;
+    for (std::uint64_t seed = 1; seed <= 24; ++seed)
+    {
+      settings.seed = seed;
+      const double bias = compare(estimateAll(sweepOf(144), scene, settings), judge, 6).bias;
+      sum += bias / 24;
+      squares += bias * bias / 24;
+    }
+    const double standardError = std::sqrt((squares - sum * sum) / 23);
+    EXPECT_LT(std::abs(sum), 0.001 + 3 * standardError);
+    EXPECT_LT(standardError, 0.0005);
   }
 }
 
