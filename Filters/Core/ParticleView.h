@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_ParticleView_h
+#define po_ParticleView_h
+
+#include "OcclusionEstimator.h"
+#include "Random.h"
+#include "SharedDirections.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace po
+{
+/// What one particle sees of the background along a direction: near spheres hide its texels one by
+/// one and exactly, far ones are met by rays that stand for a group of neighbouring texels each.
+///
+/// A group's ray starts at one of its texels that no near sphere hides, chosen at random in
+/// proportion to what the texels count for, so that the mean over the particle has no bias. Where
+/// triangles come near, or more spheres than can be listed, every texel gets a ray of its own.
+///
+/// A thread has one of these and uses it for many particles.
+class ParticleView
+{
+public:
+  /// The scene must outlive this.
+  /// @param distance where rays end, local; infinity where they do not
+  ParticleView(const BakeScene& scene, float distance);
+
+  /// Looks for what is near a particle; `id` is its number in the scene.
+  void begin(unsigned id);
+
+  /// Clears the bits of the texels that do not see the background.
+  /// @param mask texels that face the direction and whose points are outside all other spheres
+  void hide(const SharedDirection& direction, Random& random, GroupMask* mask);
+
+  /// Rays traced since this was made.
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }
+
+private:
+  /// Lengths are in radii of the particle.
+  struct NearSphere
+  {
+    Vec3f center; ///< relative to the particle's
+    float radius;
+  };
+
+  bool hideBehindNear(const SharedDirection& direction, GroupMask* mask);
+  void traceGroups(const SharedDirection& direction, Random& random, GroupMask* mask);
+  void traceTexels(const SharedDirection& direction, GroupMask* mask);
+  [[nodiscard]] Vec3f pointOf(const SharedDirection& direction, std::size_t slot) const;
+
+  const BakeScene& scene_;
+  float distance_; ///< local, infinite where unbounded
+  unsigned id_ = 0;
+  Sphere self_{};
+  float reach_ = 0;           ///< of light, in radii of the particle
+  bool needsRays_ = true;     ///< something may be in the way that is not among the near spheres
+  bool raysOfTexels_ = false; ///< one for every texel
+  std::vector<Neighbour> found_;
+  std::vector<NearSphere> near_;
+  std::uint64_t rays_ = 0;
+};
+}
+
+#endif
