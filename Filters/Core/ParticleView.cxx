@@ -34,13 +34,14 @@ void forEachBit(unsigned bits, const Visit& visit)
 
 /// One of the slots of a group that are set, each with a probability in proportion to its
 /// importance.
-std::size_t chooseSlot(const float* importance, unsigned mask, double random)
+std::size_t chooseSlot(const float* importance, unsigned bits, Random& random)
 {
   float total = 0;
-  forEachBit(mask, [&](unsigned place) { total += importance[place]; });
-  float left = static_cast<float>(random) * total;
-  std::size_t chosen = GroupSize;
-  forEachBit(mask,
+  forEachBit(bits, [&](unsigned place) { total += importance[place]; });
+  const auto share = static_cast<float>(random.uniform());
+  float left = share * total;
+  std::size_t chosen = 0;
+  forEachBit(bits,
     [&](unsigned place)
     {
       if (left >= 0)
@@ -52,15 +53,103 @@ std::size_t chooseSlot(const float* importance, unsigned mask, double random)
   return chosen;
 }
 
-GroupMask without(GroupMask mask, unsigned bits)
+/// The squares of a group of 4 x 4 texels that rays stand for.
+struct Squares
 {
-  return static_cast<GroupMask>(mask & ~bits);
-}
+  std::size_t count;
+  std::array<unsigned, GroupSize> masks;
+};
+
+constexpr Squares makeSquares(unsigned first, unsigned side)
+{
+  Squares squares{ 0, {} };
+  for (unsigned row = 0; row < 4; row += side)
+  {
+    for (unsigned column = 0; column < 4; column += side)
+    {
+      squares.masks[squares.count++] = first << (4 * row + column);
+    }
+  }
+  return squares;
 }
 
-ParticleView::ParticleView(const BakeScene& scene, float distance)
+const Squares& squaresOf(RayShare share)
+{
+  static constexpr Squares sixteen = makeSquares(0xFFFF, 4);
+  static constexpr Squares four = makeSquares(0x0033, 2);
+  static constexpr Squares one = makeSquares(0x0001, 1);
+  switch (share)
+  {
+    case RayShare::Sixteen:
+      return sixteen;
+    case RayShare::Four:
+      return four;
+    default:
+      return one;
+  }
+}
+
+/// Parallel rays of one particle, traced sixteen at a time. Each clears bits where it is stopped.
+class RayPacket
+{
+public:
+  RayPacket(const SphereScene& scene, Vec3f direction, float distance, unsigned own)
+    : scene_(scene)
+    , direction_(direction)
+    , distance_(distance)
+    , own_(own)
+  {
+  }
+
+  void add(Vec3f origin, GroupMask& mask, unsigned bits)
+  {
+    origins_[count_] = origin;
+    targets_[count_] = { &mask, bits };
+    if (++count_ == SphereScene::PacketSize)
+    {
+      trace();
+    }
+  }
+
+  void trace()
+  {
+    if (count_ == 0)
+    {
+      return;
+    }
+    const unsigned stopped =
+      scene_.occludedFrom(origins_.data(), count_, direction_, distance_, own_);
+    forEachBit(stopped,
+      [&](unsigned ray)
+      {
+        GroupMask& mask = *targets_[ray].mask;
+        mask = static_cast<GroupMask>(mask & ~targets_[ray].bits);
+      });
+    count_ = 0;
+  }
+
+private:
+  struct Target
+  {
+    GroupMask* mask;
+    unsigned bits;
+  };
+
+  const SphereScene& scene_;
+  Vec3f direction_;
+  float distance_;
+  unsigned own_;
+  unsigned count_ = 0;
+  std::array<Vec3f, SphereScene::PacketSize> origins_;
+  std::array<Target, SphereScene::PacketSize> targets_;
+};
+}
+
+ParticleView::ParticleView(const BakeScene& scene, float distance, RayShare share)
   : scene_(scene)
   , distance_(distance)
+  , share_(share)
+  , shareHere_(share)
 {
 }
 
@@ -81,22 +170,15 @@ void ParticleView::begin(unsigned id)
   const bool full = found_.size() == NearLimit;
   const bool nearMesh = scene_.rays.isMeshWithin(self_.center(), (1 + near) * self_.radius);
   needsRays_ = full || nearMesh || near < reach_;
-  raysOfTexels_ = nearMesh || (full && found_.back().gap < CloseReach * self_.radius);
+  const bool crowded = full && found_.back().gap < CloseReach * self_.radius;
+  shareHere_ = nearMesh || crowded ? RayShare::One : share_;
 }
 
 void ParticleView::hide(const SharedDirection& direction, Random& random, GroupMask* mask)
 {
-  if (!hideBehindNear(direction, mask) || !needsRays_)
+  if (hideBehindNear(direction, mask) && needsRays_)
   {
-    return;
-  }
-  if (raysOfTexels_)
-  {
-    traceTexels(direction, mask);
-  }
-  else
-  {
-    traceGroups(direction, random, mask);
+    trace(direction, random, mask);
   }
 }
 
@@ -129,70 +211,26 @@ bool ParticleView::hideBehindNear(const SharedDirection& direction, GroupMask* m
   return true;
 }
 
-Vec3f ParticleView::pointOf(const SharedDirection& direction, std::size_t slot) const
+void ParticleView::trace(const SharedDirection& direction, Random& random, GroupMask* mask)
 {
-  return self_.center() + self_.radius * direction.normals[slot];
-}
-
-void ParticleView::traceGroups(const SharedDirection& direction, Random& random, GroupMask* mask)
-{
-  const Vec3f towardsLight = direction.towardsLight.as<float>();
-  std::array<Vec3f, SphereScene::PacketSize> origins;
-  std::array<std::uint32_t, SphereScene::PacketSize> groups;
-  unsigned count = 0;
-  const auto trace = [&]
-  {
-    const unsigned stopped =
-      scene_.rays.occludedFrom(origins.data(), count, towardsLight, distance_, id_);
-    forEachBit(stopped, [&](unsigned i) { mask[groups[i]] = 0; });
-    rays_ += count;
-    count = 0;
-  };
+  const Squares& squares = squaresOf(shareHere_);
+  RayPacket packet(scene_.rays, direction.towardsLight.as<float>(), distance_, id_);
   for (const std::uint32_t group : direction.facing.facingGroups)
   {
-    if (mask[group] == 0)
-    {
-      continue;
-    }
     const std::size_t first = group * GroupSize;
-    const std::size_t slot =
-      first + chooseSlot(direction.importance.data() + first, mask[group], random.uniform());
-    origins[count] = pointOf(direction, slot);
-    groups[count] = group;
-    if (++count == SphereScene::PacketSize)
+    const unsigned open = mask[group];
+    for (std::size_t i = 0; i < squares.count && open != 0; ++i)
     {
-      trace();
-    }
-  }
-  if (count > 0)
-  {
-    trace();
-  }
-}
-
-void ParticleView::traceTexels(const SharedDirection& direction, GroupMask* mask)
-{
-  static_assert(SphereScene::PacketSize == GroupSize);
-  const Vec3f towardsLight = direction.towardsLight.as<float>();
-  std::array<Vec3f, GroupSize> origins;
-  std::array<unsigned, GroupSize> places;
-  for (const std::uint32_t group : direction.facing.facingGroups)
-  {
-    unsigned count = 0;
-    forEachBit(mask[group],
-      [&](unsigned place)
+      const unsigned bits = open & squares.masks[i];
+      if (bits != 0)
       {
-        origins[count] = pointOf(direction, group * GroupSize + place);
-        places[count++] = place;
-      });
-    if (count == 0)
-    {
-      continue;
+        const std::size_t slot =
+          first + chooseSlot(direction.importance.data() + first, bits, random);
+        packet.add(self_.center() + self_.radius * direction.normals[slot], mask[group], bits);
+        ++rays_;
+      }
     }
-    const unsigned stopped =
-      scene_.rays.occludedFrom(origins.data(), count, towardsLight, distance_, id_);
-    forEachBit(stopped, [&](unsigned i) { mask[group] = without(mask[group], 1u << places[i]); });
-    rays_ += count;
   }
+  packet.trace();
 }
 }

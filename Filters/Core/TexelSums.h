@@ -17,10 +17,12 @@ namespace po
 /// Interleaved subsets of directions whose spread is the error bar.
 inline constexpr std::size_t DirectionSubsets = 4;
 
-/// The subset of a direction: runs of 16 take turns, as each of them is spread evenly.
+/// The subset of a direction: runs of 16 take turns, as each of them is spread evenly. Turns shift
+/// with every round of the 64 points of a texel, so that all subsets look at all of them.
 [[nodiscard]] inline std::size_t subsetOf(const SharedDirection& direction)
 {
-  return direction.index / 16 % DirectionSubsets;
+  const std::size_t shift = direction.index / TexelPatterns::Count;
+  return (direction.index / 16 + shift) % DirectionSubsets;
 }
 
 /// What a particle of which all is open sums to: the weights of the directions that texels face.

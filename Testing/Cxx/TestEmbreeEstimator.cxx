@@ -334,10 +334,10 @@ TEST(EmbreeEstimator, SaysWhatItDid)
   EXPECT_EQ(result.counters.texels, 3 * 256u);
   EXPECT_EQ(result.counters.texelsInside, 256u);
   EXPECT_GT(result.counters.rays, 100u);
-  EXPECT_LT(result.counters.rays, 2 * 50 * 16u); // at most one for each group
+  EXPECT_LT(result.counters.rays, 2 * 100 * 16u); // at most one for each group
   EXPECT_GE(result.counters.threads, 1u);
   EXPECT_EQ(embree.report().directions + static_cast<int>(result.counters.directionsBlack), 100);
-  EXPECT_NEAR(embree.report().directions, 50, 1);
+  EXPECT_GT(result.counters.directionsBlack, 0u);
   EXPECT_GT(embree.report().estimatedError, 0);
 }
 
