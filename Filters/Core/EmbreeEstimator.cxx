@@ -155,7 +155,8 @@ public:
 
   [[nodiscard]] EmbreeReport report() const
   {
-    return { static_cast<int>(directions_), error_.rms(), targetError_ > 0 && above_ == 0 };
+    return { static_cast<int>(directions_), error_.rms(),
+      targetError_ > 0 && error_.rms() <= targetError_, above_ };
   }
 
 private:
@@ -306,7 +307,7 @@ private:
     {
       error_.sum += work.error.sum;
       error_.area += work.error.area;
-      above_ += work.error.rms() > targetError_;
+      above_ += targetError_ > 0 && work.error.rms() > targetError_;
     }
   }
 

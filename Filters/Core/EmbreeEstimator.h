@@ -10,7 +10,7 @@ namespace po
 struct EmbreeOptions
 {
   int directions = 0;     ///< 0: as many as the settings' samplesPerTexel stand for
-  double targetError = 0; ///< above 0: RMS error to reach on every single particle
+  double targetError = 0; ///< above 0: RMS error to reach on every single particle, if possible
 };
 
 /// What it did to reach its result.
@@ -18,7 +18,8 @@ struct EmbreeReport
 {
   int directions = 0;        ///< the most that a particle took, without those of a black background
   double estimatedError = 0; ///< RMS error of linear visibility, from subsets of the directions
-  bool reached = false;      ///< the target error, if there was one, by every particle
+  bool reached = false;      ///< the target error, if there was one, by the set as a whole
+  std::size_t above = 0;     ///< particles whose own error stayed above the target
 };
 
 /// Finds the visibility particle by particle along directions that all share: what is near hides
@@ -28,7 +29,8 @@ struct EmbreeReport
 /// and meshes. A particle gets the same bits whatever else is listed, for any number of threads.
 ///
 /// With a target error sets of directions are added until the spread of their subsets over the
-/// particle at hand says that it is reached: only those that need it go on.
+/// particle at hand says that it is reached: only those that need it go on. One of which hardly
+/// anything is outside others may stay above it.
 class EmbreeEstimator : public OcclusionEstimator
 {
 public:

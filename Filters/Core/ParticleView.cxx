@@ -32,25 +32,24 @@ void forEachBit(unsigned bits, const Visit& visit)
   }
 }
 
-/// One of the slots of a group that are set, each with a probability in proportion to its
-/// importance.
-std::size_t chooseSlot(const float* importance, unsigned bits, Random& random)
+/// The place of one of the bits that are set, each with a probability in proportion to its
+/// importance. Without branches: they would be hard to foresee.
+std::size_t choosePlace(const float* importance, unsigned bits, Random& random)
 {
+  std::array<float, GroupSize> sums; // of all places up to this one
   float total = 0;
-  forEachBit(bits, [&](unsigned place) { total += importance[place]; });
-  const auto share = static_cast<float>(random.uniform());
-  float left = share * total;
+  for (std::size_t place = 0; place < GroupSize; ++place)
+  {
+    total += (bits >> place & 1) != 0 ? importance[place] : 0.0f;
+    sums[place] = total;
+  }
+  const float mark = static_cast<float>(random.next() >> 8) * 0x1p-24f * total;
   std::size_t chosen = 0;
-  forEachBit(bits,
-    [&](unsigned place)
-    {
-      if (left >= 0)
-      {
-        chosen = place;
-        left -= importance[place];
-      }
-    });
-  return chosen;
+  for (const float sum : sums)
+  {
+    chosen += sum <= mark ? 1 : 0;
+  }
+  return std::min(chosen, GroupSize - 1); // beyond only where all importance is 0
 }
 
 /// The squares of a group of 4 x 4 texels that rays stand for.
@@ -164,8 +163,7 @@ void ParticleView::begin(unsigned id)
   for (const Neighbour& neighbour : found_)
   {
     const Sphere& other = scene_.rays.spheres()[neighbour.id];
-    near_.push_back(
-      { (1 / self_.radius) * (other.center() - self_.center()), other.radius / self_.radius });
+    near_.add((1 / self_.radius) * (other.center() - self_.center()), other.radius / self_.radius);
   }
   const bool full = found_.size() == NearLimit;
   const bool nearMesh = scene_.rays.isMeshWithin(self_.center(), (1 + near) * self_.radius);
@@ -182,30 +180,27 @@ void ParticleView::hide(const SharedDirection& direction, Random& random, GroupM
   }
 }
 
-/// Spheres whose centre lies ahead of the particle's, and whose disc meets its disc, may hide
-/// texels.
 bool ParticleView::hideBehindNear(const SharedDirection& direction, GroupMask* mask)
 {
-  const Vec3f x = direction.basis.x.as<float>();
-  const Vec3f y = direction.basis.y.as<float>();
-  const Vec3f towardsLight = direction.towardsLight.as<float>();
   const bool bounded = std::isfinite(reach_);
-  for (const NearSphere& sphere : near_)
+  NearSpheres::Projection projected;
+  for (std::size_t block = 0; block < near_.blocks(); ++block)
   {
-    const float a = dot(sphere.center, x);
-    const float b = dot(sphere.center, y);
-    const float height = dot(sphere.center, towardsLight);
-    const float touch = 1 + sphere.radius;
-    if (height <= 0 || a * a + b * b >= touch * touch)
+    near_.project(block, direction, projected);
+    for (std::size_t i = 0; i < NearSpheres::BlockSize; ++i)
     {
-      continue;
-    }
-    const Occluder occluder{ a, b, height, sphere.radius * sphere.radius };
-    const bool open = bounded ? hideTexelsWithin(direction.facing, occluder, reach_, mask)
-                              : hideTexels(direction.facing, occluder, mask);
-    if (!open)
-    {
-      return false;
+      if (projected.meets[i] == 0)
+      {
+        continue;
+      }
+      const Occluder occluder{ projected.a[i], projected.b[i], projected.height[i],
+        near_.squaredRadius(block, i) };
+      const bool open = bounded ? hideTexelsWithin(direction.facing, occluder, reach_, mask)
+                                : hideTexels(direction.facing, occluder, mask);
+      if (!open)
+      {
+        return false;
+      }
     }
   }
   return true;
@@ -225,7 +220,7 @@ void ParticleView::trace(const SharedDirection& direction, Random& random, Group
       if (bits != 0)
       {
         const std::size_t slot =
-          first + chooseSlot(direction.importance.data() + first, bits, random);
+          first + choosePlace(direction.importance.data() + first, bits, random);
         packet.add(self_.center() + self_.radius * direction.normals[slot], mask[group], bits);
         ++rays_;
       }

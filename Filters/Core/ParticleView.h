@@ -2,6 +2,7 @@
 #ifndef po_ParticleView_h
 #define po_ParticleView_h
 
+#include "NearSpheres.h"
 #include "OcclusionEstimator.h"
 #include "Random.h"
 #include "SharedDirections.h"
@@ -46,13 +47,6 @@ public:
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
 private:
-  /// Lengths are in radii of the particle.
-  struct NearSphere
-  {
-    Vec3f center; ///< relative to the particle's
-    float radius;
-  };
-
   bool hideBehindNear(const SharedDirection& direction, GroupMask* mask);
   void trace(const SharedDirection& direction, Random& random, GroupMask* mask);
 
@@ -65,7 +59,7 @@ private:
   RayShare share_;        ///< where nothing asks for more rays
   RayShare shareHere_;    ///< for the particle at hand
   std::vector<Neighbour> found_;
-  std::vector<NearSphere> near_;
+  NearSpheres near_;
   std::uint64_t rays_ = 0;
 };
 }

@@ -301,7 +301,7 @@ TEST(EmbreeEstimator, IsAsGoodAsTheRaysThatItStandsFor)
   }
 }
 
-TEST(EmbreeEstimator, ReachesATargetErrorOnEveryParticle)
+TEST(EmbreeEstimator, ReachesATargetErrorParticleByParticle)
 {
   const po::SphereCloud cloud = cloudOf(mixedScene());
   const po::BakeScene scene(cloud);
@@ -314,6 +314,7 @@ TEST(EmbreeEstimator, ReachesATargetErrorOnEveryParticle)
     const Estimates ours = estimateAll(embree, scene, floatSettings(6, 1));
     EXPECT_TRUE(embree.report().reached);
     EXPECT_LE(embree.report().estimatedError, target);
+    EXPECT_LE(embree.report().above, 1u); // of one particle only 1 % is outside others
     const Difference difference = compare(ours, judge, 6);
     EXPECT_LT(difference.rms, 1.1 * target);
     EXPECT_LT(std::abs(difference.bias), 0.002 + 0.1 * target);
