@@ -12,11 +12,11 @@ namespace po
 namespace
 {
 /// What comes this near to a particle's surface, in its radii, is near.
-constexpr float NearReach = 2;
+constexpr float NearReach = 3;
 
 /// So many spheres are listed, the nearest ones. Where the list ends nearer than CloseReach, rays
 /// that stand for groups would blur what is in contact.
-constexpr std::size_t NearLimit = 64;
+constexpr std::size_t NearLimit = 128;
 constexpr float CloseReach = 0.5f;
 
 /// Calls visit(place) for the bits that are set, lowest first.
