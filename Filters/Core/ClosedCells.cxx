@@ -13,6 +13,12 @@ constexpr float CellWidth = 0.5f; ///< in reaches
 constexpr float MostCells = 256;  ///< along a side
 constexpr float Margin = 3;       ///< in reaches: what halo spheres cover
 constexpr float Open = -std::numeric_limits<float>::infinity();
+
+/// The first cell that begins at or after a position (in cells).
+int firstWhole(float position)
+{
+  return position > 0 ? static_cast<int>(position) + 1 : 0;
+}
 }
 
 void ClosedCells::begin(const DepthTile& tile, float reach)
@@ -33,36 +39,39 @@ void ClosedCells::begin(const DepthTile& tile, float reach)
 
 void ClosedCells::close(const ProjectedSphere& s)
 {
+  const float x = (s.x - lowX_) * perCell_;
+  const float y = (s.y - lowY_) * perCell_;
   // A little less than the disc: rounding may then cost time, but never a wrong answer.
-  const float radius = s.radius * (1 - 1e-5f);
-  const float x = s.x - lowX_;
-  const float y = s.y - lowY_;
-  const int bottom = std::max(0, cellAt(std::max(0.0f, y - radius)));
-  const int top = std::min(side_ - 1, cellAt(std::max(0.0f, y + radius)));
-  for (int row = bottom; row <= top; ++row)
+  const float radius = s.radius * perCell_ * (1 - 1e-5f);
+  const int bottom = firstWhole(y - radius);
+  const int top = std::min(side_, static_cast<int>(std::max(0.0f, y + radius)));
+  for (int row = bottom; row < top; ++row)
   {
-    const float dy = std::max(y - static_cast<float>(row) * cell_,
-      static_cast<float>(row + 1) * cell_ - y); // to the farther edge of the row
-    const float half = radius * radius - dy * dy;
-    if (half <= 0)
+    const float edge = static_cast<float>(row);
+    const float dy = std::max(y - edge, edge + 1 - y); // to the farther edge of the row
+    const float halfWidth = std::sqrt(std::max(0.0f, radius * radius - dy * dy));
+    const int right = std::min(side_, static_cast<int>(std::max(0.0f, x + halfWidth)));
+    closeRow(row, firstWhole(x - halfWidth), right, s.z);
+  }
+}
+
+void ClosedCells::closeRow(int row, int left, int right, float z)
+{
+  float* cells = height_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
+  int closed = 0;
+  if (row >= inner_ && row < side_ - inner_)
+  {
+    for (int column = std::max(left, inner_); column < std::min(right, side_ - inner_); ++column)
     {
-      continue;
-    }
-    const float halfWidth = std::sqrt(half);
-    const int left = static_cast<int>(std::ceil(std::max(0.0f, (x - halfWidth) * perCell_)));
-    const int right = std::min(side_, cellAt(std::max(0.0f, x + halfWidth)));
-    float* cells = height_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
-    const bool innerRow = row >= inner_ && row < side_ - inner_;
-    for (int column = left; column < right; ++column)
-    {
-      if (cells[column] == Open)
-      {
-        cells[column] = s.z;
-        lowest_ = s.z;
-        open_ -= innerRow && column >= inner_ && column < side_ - inner_ ? 1 : 0;
-      }
+      closed += cells[column] == Open ? 1 : 0;
     }
   }
+  for (int column = left; column < right; ++column)
+  {
+    cells[column] = std::max(cells[column], z); // a closed one is higher: z falls
+  }
+  open_ -= closed;
+  lowest_ = closed > 0 ? z : lowest_;
 }
 
 bool ClosedCells::hides(const ProjectedSphere& s) const

@@ -28,11 +28,12 @@ public:
   [[nodiscard]] bool hidesAllBelow(float z) const { return open_ == 0 && z + reach_ <= lowest_; }
 
 private:
+  void closeRow(int row, int left, int right, float z);
   [[nodiscard]] int cellAt(float offset) const { return static_cast<int>(offset * perCell_); }
 
   std::vector<float> height_; ///< below it a cell is closed; -infinity in an open one
   float lowX_ = 0, lowY_ = 0, cell_ = 1, perCell_ = 1, reach_ = 0;
-  float lowest_ = 0; ///< height of the latest cell that was closed
+  float lowest_ = 0; ///< height of the latest cell that was closed, of those that receivers reach
   int side_ = 0;     ///< cells along each side
   int inner_ = 0;    ///< cells of the margin that no receiver reaches
   int open_ = 0;     ///< open cells that receivers reach

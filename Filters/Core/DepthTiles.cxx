@@ -36,7 +36,7 @@ std::size_t DepthTiles::findExtent()
   std::size_t receivers = 0;
   for (const Member& m : members_)
   {
-    if (m.sameOctave)
+    if (m.sameBand)
     {
       ++receivers;
       lowX_ = std::min(lowX_, m.sphere->x);
@@ -76,17 +76,17 @@ std::size_t DepthTiles::homeOf(const ProjectedSphere& s) const
 
 DepthTiles::Range DepthTiles::tilesWithin(const ProjectedSphere& s, float reach) const
 {
-  const auto clamped = [this](float position, int end)
-  {
-    const float tile = std::floor(position * perWidth_);
-    return static_cast<int>(std::clamp(tile, -1.0f, static_cast<float>(end)));
-  };
   // Rounding of a tile's edge must not lose a neighbour that just touches a receiver beyond it.
   const float wide = reach * (1 + 1e-5f) + width_ * 1e-5f;
-  return { std::max(0, clamped(s.x - wide - lowX_, columns_)),
-    std::min(columns_, clamped(s.x + wide - lowX_, columns_) + 1),
-    std::max(0, clamped(s.y - wide - lowY_, rows_)),
-    std::min(rows_, clamped(s.y + wide - lowY_, rows_) + 1) };
+  const auto first = [this](float position, int end)
+  { return static_cast<int>(std::clamp(position * perWidth_, 0.0f, static_cast<float>(end))); };
+  const auto last = [this](float position, int end) // one past the last, 0 left of all
+  {
+    const float tile = std::clamp(position * perWidth_ + 1, 0.0f, static_cast<float>(end));
+    return static_cast<int>(tile);
+  };
+  return { first(s.x - wide - lowX_, columns_), last(s.x + wide - lowX_, columns_),
+    first(s.y - wide - lowY_, rows_), last(s.y + wide - lowY_, rows_) };
 }
 
 /// Calls action(tile) for every tile whose receivers the member can hide, its own included.
@@ -114,7 +114,7 @@ void DepthTiles::sortIntoTiles()
   hasReceivers_.assign(tiles, 0);
   for (const Member& m : members_)
   {
-    if (m.sameOctave)
+    if (m.sameBand)
     {
       hasReceivers_[homeOf(*m.sphere)] = 1;
     }
@@ -132,8 +132,8 @@ void DepthTiles::sortIntoTiles()
   next_.assign(starts_.begin(), starts_.end() - 1);
   for (const Member& m : members_)
   {
-    const std::size_t home = m.sameOctave ? homeOf(*m.sphere) : tiles;
-    const TileRole elsewhere = m.sameOctave ? TileRole::Halo : TileRole::Other;
+    const std::size_t home = m.sameBand ? homeOf(*m.sphere) : tiles;
+    const TileRole elsewhere = m.sameBand ? TileRole::Halo : TileRole::Other;
     visitTiles(m,
       [&](std::size_t tile) {
         entries_[next_[tile]++] = { *m.sphere, tile == home ? TileRole::Receiver : elsewhere };

@@ -21,8 +21,8 @@ struct ProjectedSphere
 enum class TileRole : std::uint8_t
 {
   Receiver, ///< its centre lies in the tile
-  Halo,     ///< of the tile's octave, centre outside: may hide receivers
-  Other,    ///< of another octave: may hide receivers
+  Halo,     ///< of the tile's band, centre outside: may hide receivers
+  Other,    ///< of another band: may hide receivers
 };
 
 struct TileSphere
@@ -41,26 +41,26 @@ struct DepthTile
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(last - first); }
 };
 
-/// The spheres of one octave, as receivers, cut into square tiles; each receiver is in one tile.
+/// The spheres of one band, as receivers, cut into square tiles; each receiver is in one tile.
 class DepthTiles
 {
 public:
   /// @param spheres in the order of their indices
-  /// @param leftOut whether a sphere of another octave can hide nothing, by its index
+  /// @param leftOut whether a sphere of another band can hide nothing, by its index
   template <typename LeftOut>
   void build(
-    const std::vector<ProjectedSphere>& spheres, const SweepScene::Octave& octave, LeftOut leftOut)
+    const std::vector<ProjectedSphere>& spheres, const SweepScene::Band& band, LeftOut leftOut)
   {
     members_.clear();
     for (const ProjectedSphere& s : spheres)
     {
-      const bool same = s.index >= octave.first && s.index < octave.last;
+      const bool same = s.index >= band.first && s.index < band.last;
       if (same || !leftOut(s.index))
       {
         members_.push_back({ &s, same });
       }
     }
-    build(octave.largestRadius);
+    build(band.largestRadius);
   }
 
   [[nodiscard]] std::size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }
@@ -70,7 +70,7 @@ private:
   struct Member
   {
     const ProjectedSphere* sphere;
-    bool sameOctave;
+    bool sameBand;
   };
 
   /// Half-open range of tiles.

@@ -8,7 +8,7 @@ namespace po
 {
 namespace
 {
-constexpr float CellWidth = 2;    ///< in reaches
+constexpr float CellWidth = 4;    ///< in reaches
 constexpr float MostCells = 64;   ///< along a side
 constexpr float WideOccluder = 4; ///< radius in cells from which on an occluder is wide
 constexpr float Infinity = HUGE_VALF;

@@ -20,8 +20,9 @@ public:
   static constexpr float CellsPerRadius = 16;
   static constexpr int Side = 4 * 16 + 2; ///< offsets from -2 to 2 radii and one cell for the shift
 
-  /// Worth the memory only while the masks of all offsets stay in the cache.
-  [[nodiscard]] static bool fits(const SweepTexels& texels) { return texels.groups() <= 16; }
+  /// Groups of a mask. With more the masks of all offsets would not stay in the cache.
+  static constexpr std::size_t Groups = 16;
+  [[nodiscard]] static bool fits(const SweepTexels& texels) { return texels.groups() <= Groups; }
 
   /// @param shiftX, shiftY of the grid in cells, 0 to 1
   void build(const FacingTexels& facing, float shiftX, float shiftY);
@@ -30,15 +31,14 @@ public:
   [[nodiscard]] float originX() const { return originX_; }
   [[nodiscard]] float originY() const { return originY_; }
 
-  /// The masks [groups] of the texels that stay open.
+  /// The masks [Groups] of the texels that stay open; those beyond the groups of the texels unused.
   [[nodiscard]] const GroupMask* at(int column, int row) const
   {
-    return masks_.data() + static_cast<std::size_t>(row * Side + column) * groups_;
+    return masks_.data() + static_cast<std::size_t>(row * Side + column) * Groups;
   }
 
 private:
   std::vector<GroupMask> masks_;
-  std::size_t groups_ = 0;
   float originX_ = 0, originY_ = 0;
 };
 }

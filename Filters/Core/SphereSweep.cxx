@@ -2,6 +2,7 @@
 #include "SphereSweep.h"
 
 #include "Random.h"
+#include "Sampling.h"
 #include "SweepDirections.h"
 
 #include <tbb/parallel_for.h>
@@ -25,12 +26,14 @@ constexpr int EpochDirections = 4 * static_cast<int>(TexelPatterns::Count);
 /// directions' light, 8 / D of what a direction shows of it.
 constexpr std::size_t FullEvery = AxesPerBlock;
 
-/// Closed cells must spare this share of all visits, or they cost more than they save.
+/// Closed cells must spare this share of all visits, or they cost more than they save; more where
+/// offset masks make a visit cheap.
 constexpr double WorthwhileShare = 0.15;
+constexpr double WorthwhileWithMasks = 0.45;
 
-bool equalRadii(const SweepScene::Octave& octave)
+bool equalRadii(const SweepScene::Band& band)
 {
-  return octave.largestRadius <= octave.smallestRadius * (1 + 1e-6f);
+  return band.largestRadius <= band.smallestRadius * (1 + 1e-6f);
 }
 }
 
@@ -41,7 +44,10 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   , distance_(distance)
   , records_(records)
   , skips_(skips)
-  , useClosedCells_(skips.closedCells && !std::isfinite(distance))
+  , useOffsetMasks_(skips.offsetMasks && scene.bands().size() == 1 &&
+      equalRadii(scene.bands().front()) && OffsetMasks::fits(records.texels()) &&
+      !std::isfinite(distance))
+  , closedCellsPay_{ skips.closedCells && !std::isfinite(distance), closedCellsPay_[0] }
   , everSeen_(scene.size())
   , tileSweeps_([&records] { return TileWorkspace(records); })
 {
@@ -76,8 +82,7 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
     {
       const Vec3d towardsLight = upward ? axes[i] : -axes[i];
       const double light = luminance(background_, towardsLight);
-      const std::size_t pattern =
-        (static_cast<std::size_t>(directions_) + 2 * i + (upward ? 0 : 1)) % TexelPatterns::Count;
+      const std::size_t pattern = nextPattern();
       if (light <= 0 && skips_.blackSky)
       {
         ++blackDirections_;
@@ -86,8 +91,8 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
       }
       facing.emplace_back(
         records_.texels(), records_.patterns(), pattern, jobs.back().basis, towardsLight, light);
-      jobs.back().directions.push_back(
-        { facing.back(), nullptr, pattern, patterns.size(), distance_, upward, useClosedCells_ });
+      jobs.back().directions.push_back({ facing.back(), nullptr, pattern, patterns.size(),
+        distance_, upward, jobs.back().full, closedCellsPay_[jobs.back().full ? 1 : 0] });
       patterns.push_back(pattern);
     }
   }
@@ -107,6 +112,22 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, Progress& progress)
   finishBlock();
 }
 
+/// Patterns take turns in an order that is drawn anew each time: the heights of the directions
+/// follow powers of two, as does the number of patterns, and a fixed order would show each pattern
+/// a part of the sky only.
+std::size_t SphereSweep::nextPattern()
+{
+  if (patternOrder_.empty())
+  {
+    Random random(mixBits(static_cast<std::uint64_t>(patternRounds_++)), 0, 0);
+    patternOrder_.resize(TexelPatterns::Count);
+    randomPermutation(random, patternOrder_);
+  }
+  const std::size_t pattern = patternOrder_.back();
+  patternOrder_.pop_back();
+  return pattern;
+}
+
 void SphereSweep::finishBlock()
 {
   seen_.clear();
@@ -117,21 +138,32 @@ void SphereSweep::finishBlock()
       seen_.push_back(i);
     }
   }
-  if (blocks_ == 1)
+  // The first block shows whether closed cells are worth their cost where all spheres take part,
+  // the second where the buried ones are left out already.
+  if (blocks_ <= 2)
   {
-    const SweepCounters sum = counters();
+    const bool full = blocks_ == 1;
+    const SweepCounters sum = counters(full);
     const auto spared = static_cast<double>(sum.closed + sum.below);
-    useClosedCells_ =
-      useClosedCells_ && spared > WorthwhileShare * static_cast<double>(sum.visits + sum.below);
+    const auto all = static_cast<double>(sum.visits + sum.below);
+    bool& pay = closedCellsPay_[full ? 1 : 0];
+    pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
   }
 }
 
 SweepCounters SphereSweep::counters() const
 {
+  SweepCounters sum = counters(false);
+  sum.add(counters(true));
+  return sum;
+}
+
+SweepCounters SphereSweep::counters(bool full) const
+{
   SweepCounters sum;
   for (const TileWorkspace& work : tileSweeps_)
   {
-    sum.add(work.sweep.counters());
+    sum.add(work.sweep.counters(full));
   }
   return sum;
 }
@@ -182,14 +214,13 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   Workspace& work = workspaces_.local();
   project(job, work.projected);
   work.seen.assign(scene_.size(), 0);
-  if (skips_.offsetMasks && scene_.octaves().size() == 1 && equalRadii(scene_.octaves().front()) &&
-    OffsetMasks::fits(records_.texels()) && !std::isfinite(distance_))
+  if (useOffsetMasks_)
   {
     buildOffsetMasks(job, work);
   }
-  for (const SweepScene::Octave& octave : scene_.octaves())
+  for (const SweepScene::Band& band : scene_.bands())
   {
-    sweepOctave(octave, job, work, progress);
+    sweepBand(band, job, work, progress);
     if (progress.aborted())
     {
       return;
@@ -205,12 +236,12 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   progress.advance(job.directions.size() * (scene_.size() - work.projected.size()));
 }
 
-void SphereSweep::sweepOctave(
-  const SweepScene::Octave& octave, const AxisJob& job, Workspace& work, Progress& progress)
+void SphereSweep::sweepBand(
+  const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress)
 {
   const bool bounded = std::isfinite(distance_);
-  work.tiles.build(work.projected, octave,
-    [&](unsigned index) { return !bounded && index < octave.first && work.seen[index] == 0; });
+  work.tiles.build(work.projected, band,
+    [&](unsigned index) { return !bounded && index < band.first && work.seen[index] == 0; });
   const auto sweepTile = [&](std::size_t index)
   {
     const DepthTile tile = work.tiles.tile(index);
@@ -222,7 +253,7 @@ void SphereSweep::sweepOctave(
     tileWork.order.begin(tile);
     for (const SweptDirection& direction : job.directions)
     {
-      tileWork.sweep.run(tile, tileWork.order, octave, direction, work.seen);
+      tileWork.sweep.run(tile, tileWork.order, band, direction, work.seen);
     }
     const auto receivers = static_cast<std::uint64_t>(std::count_if(
       tile.first, tile.last, [](const TileSphere& s) { return s.role == TileRole::Receiver; }));

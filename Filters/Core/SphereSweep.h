@@ -8,6 +8,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
 #include <atomic>
 #include <vector>
 
@@ -76,22 +77,27 @@ private:
 
   void sweepBlock(const std::vector<Vec3d>& axes, Progress& progress);
   void sweepAxis(AxisJob& job, Progress& progress);
-  void sweepOctave(
-    const SweepScene::Octave& octave, const AxisJob& job, Workspace& work, Progress& progress);
+  void sweepBand(
+    const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);
   void project(const AxisJob& job, std::vector<ProjectedSphere>& projected) const;
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
+  [[nodiscard]] std::size_t nextPattern();
   void finishBlock();
+  [[nodiscard]] SweepCounters counters(bool full) const;
 
   const SweepScene& scene_;
   const Background& background_;
   float distance_;
   VisibilityRecords& records_;
   SweepSkips skips_;
-  bool useClosedCells_;
+  bool useOffsetMasks_;
+  std::array<bool, 2> closedCellsPay_; ///< where only spheres ever seen take part, where all do
   std::vector<std::atomic<std::uint8_t>> everSeen_;
   std::vector<unsigned> seen_; ///< the spheres that were ever seen, up to the last block
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   tbb::enumerable_thread_specific<TileWorkspace> tileSweeps_;
+  std::vector<std::uint32_t> patternOrder_; ///< those to come
+  int patternRounds_ = 0;
   std::size_t blocks_ = 0;
   int epoch_ = 0;
   int directions_ = 0; ///< black ones too

@@ -9,16 +9,16 @@
 
 namespace po
 {
-/// The spheres of a scene in the order in which a sweep works: sorted into octaves of their radii,
+/// The spheres of a scene in the order in which a sweep works: sorted into bands of their radii,
 /// so that a few large ones do not make the tiles and cells of the many small ones large, and
-/// within an octave along a Morton curve, so that spheres that are near in space are near in
+/// within a band along a Morton curve, so that spheres that are near in space are near in
 /// memory.
 class SweepScene
 {
 public:
-  /// Spheres [first, last), none more than twice as large as another. Octaves are numbered upward;
-  /// each holds at least one sphere.
-  struct Octave
+  /// Spheres [first, last), none more than four times as large as another, but for a few small ones
+  /// that are not worth a band of their own. Bands are numbered upward; each holds a sphere.
+  struct Band
   {
     unsigned first, last;
     float smallestRadius, largestRadius;
@@ -28,7 +28,7 @@ public:
 
   [[nodiscard]] std::size_t size() const { return spheres_.size(); }
   [[nodiscard]] const Sphere& sphere(unsigned index) const { return spheres_[index]; }
-  [[nodiscard]] const std::vector<Octave>& octaves() const { return octaves_; }
+  [[nodiscard]] const std::vector<Band>& bands() const { return bands_; }
 
   /// The place of a sphere in the vector that this was made from, and back.
   [[nodiscard]] unsigned source(unsigned index) const { return source_[index]; }
@@ -36,7 +36,7 @@ public:
 
 private:
   std::vector<Sphere> spheres_;
-  std::vector<Octave> octaves_;
+  std::vector<Band> bands_;
   std::vector<unsigned> source_;
   std::vector<unsigned> indexOf_;
 };

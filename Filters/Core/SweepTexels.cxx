@@ -36,20 +36,21 @@ SweepTexels::SweepTexels(int textureResolution)
       const TextureCoordinate middle{ (column + 0.5) / resolution_, (row + 0.5) / resolution_ };
       texelOfSlot_.push_back(
         exists ? static_cast<std::uint32_t>(texelIndex(resolution_, row, column)) : Empty);
-      rowOf_.push_back(exists ? row : 0);
-      center_.push_back(exists ? textureDirection(middle).as<float>() : Vec3f());
+      const Vec3f center = exists ? textureDirection(middle).as<float>() : Vec3f();
+      const double radius = exists ? texelAngularRadius(resolution_, row) : 0;
+      discs_.x.push_back(center.x);
+      discs_.y.push_back(center.y);
+      discs_.z.push_back(center.z);
+      discs_.cosRadius.push_back(static_cast<float>(std::cos(radius)));
+      discs_.sinRadius.push_back(static_cast<float>(std::sin(radius)));
     }
   }
-  for (int row = 0; row < resolution_; ++row)
+  allBits_.assign(groups(), 0);
+  for (std::size_t slot = 0; slot < slots(); ++slot)
   {
-    angularRadii_.push_back(texelAngularRadius(resolution_, row));
-  }
-  allBits_.assign(PointsPerTexel * groups(), 0);
-  for (std::size_t i = 0; i < PointsPerTexel * slots(); ++i)
-  {
-    const bool exists = texelOfSlot_[i % slots()] != Empty;
-    GroupMask& mask = allBits_[i / GroupSize];
-    mask = static_cast<GroupMask>(mask | unsigned(exists) << (i % GroupSize));
+    const bool exists = texelOfSlot_[slot] != Empty;
+    GroupMask& mask = allBits_[slot / GroupSize];
+    mask = static_cast<GroupMask>(mask | unsigned(exists) << (slot % GroupSize));
   }
 }
 
@@ -57,13 +58,12 @@ TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std:
   : x(Count * texels.slots())
   , y(x.size())
   , z(x.size())
-  , slots(texels.slots())
 {
   // The plastic number gives the Kronecker sequence of two dimensions that is spread best (Roberts
   // 2018); every texel shifts it by an amount of its own.
   constexpr double stepS = 0.75487766624669276;
   constexpr double stepT = 0.56984029099805327;
-  for (std::size_t slot = 0; slot < slots; ++slot)
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
     const std::uint32_t texel = texels.texelOfSlot(slot);
     if (texel == SweepTexels::Empty)

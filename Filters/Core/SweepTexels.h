@@ -20,6 +20,14 @@ inline constexpr GroupMask AllOfGroup = 0xFFFF;
 /// Points that every texel has, one for each sweep direction in turn.
 inline constexpr std::size_t PointsPerTexel = 64;
 
+/// Discs on the unit sphere, [slots] each: their centres, 0 in empty slots, and the angle between
+/// them and the farthest point of the texel.
+struct TexelDiscs
+{
+  std::vector<float> x, y, z;
+  std::vector<float> cosRadius, sinRadius;
+};
+
 /// The texels that a sweep follows, and where in them it looks.
 ///
 /// The grid is that of the texture, or a whole multiple of it where the texture has fewer than 12
@@ -42,23 +50,17 @@ public:
   /// Row-major index of a slot's texel in the fine grid, or Empty.
   [[nodiscard]] std::uint32_t texelOfSlot(std::size_t slot) const { return texelOfSlot_[slot]; }
 
-  /// Row of a slot's texel in the fine grid, and the direction of its centre; 0 in empty slots.
-  [[nodiscard]] int rowOf(std::size_t slot) const { return rowOf_[slot]; }
-  [[nodiscard]] Vec3f center(std::size_t slot) const { return center_[slot]; }
+  /// Discs around the texels of all slots.
+  [[nodiscard]] const TexelDiscs& discs() const { return discs_; }
 
-  /// The largest angle between a texel's centre and its points, by row.
-  [[nodiscard]] const std::vector<double>& angularRadii() const { return angularRadii_; }
-
-  /// A bit for each slot that is not empty, [TexelPatterns::Count][groups].
+  /// A bit for each slot that is not empty, [groups].
   [[nodiscard]] const std::vector<GroupMask>& allBits() const { return allBits_; }
 
 private:
   int refinement_;
   int resolution_;
   std::vector<std::uint32_t> texelOfSlot_;
-  std::vector<int> rowOf_;
-  std::vector<Vec3f> center_;
-  std::vector<double> angularRadii_;
+  TexelDiscs discs_;
   std::vector<GroupMask> allBits_;
 };
 
@@ -71,20 +73,18 @@ struct TexelPatterns
   /// @param epoch patterns of different epochs interleave: together they are well spread too
   TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std::uint32_t epoch);
 
-  /// The unit normals [Count][slots], 0 in empty slots.
+  /// The unit normals [groups][Count][GroupSize], 0 in empty slots.
   std::vector<float> x, y, z;
 
-  [[nodiscard]] std::size_t index(std::size_t pattern, std::size_t slot) const
+  [[nodiscard]] static constexpr std::size_t index(std::size_t pattern, std::size_t slot)
   {
-    return pattern * slots + slot;
+    return (slot / GroupSize * Count + pattern) * GroupSize + slot % GroupSize;
   }
   [[nodiscard]] Vec3f normal(std::size_t pattern, std::size_t slot) const
   {
     const std::size_t i = index(pattern, slot);
     return { x[i], y[i], z[i] };
   }
-
-  std::size_t slots;
 };
 
 /// The texels whose points face a direction, in the frame of the projection: u and v across, w

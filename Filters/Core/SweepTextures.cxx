@@ -11,65 +11,94 @@
 
 namespace po
 {
-SweepTextures::SweepTextures(const VisibilityRecords& records, const Background& background)
-  : records_(records)
+namespace
 {
-  const SweepTexels& texels = records.texels();
-  const TexelPatterns& patterns = records.patterns();
+/// The irradiance of an open surface at all points, in the order of TexelPatterns.
+std::vector<float> irradianceOfPoints(
+  const SweepTexels& texels, const TexelPatterns& patterns, const Background& background)
+{
   const BackgroundIrradiance irradiance(background);
-  irradiance_.resize(TexelPatterns::Count * texels.slots());
-  openIrradiance_.resize(texels.slots());
+  std::vector<float> values(TexelPatterns::Count * texels.slots(), 0.0f);
   for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
-    if (texels.texelOfSlot(slot) == SweepTexels::Empty)
-    {
-      continue;
-    }
-    double sum = 0;
     for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
     {
-      const double value = irradiance(normalized(patterns.normal(p, slot).as<double>()));
-      irradiance_[patterns.index(p, slot)] = static_cast<float>(value);
-      sum += value;
+      if (texels.texelOfSlot(slot) != SweepTexels::Empty)
+      {
+        const Vec3d normal = normalized(patterns.normal(p, slot).as<double>());
+        values[TexelPatterns::index(p, slot)] = static_cast<float>(irradiance(normal));
+      }
     }
-    openIrradiance_[slot] = static_cast<float>(sum / TexelPatterns::Count);
   }
-  for (int row = 0; row < texels.resolution(); ++row)
+  return values;
+}
+}
+
+SweepTextures::SweepTextures(const VisibilityRecords& records, const Background& background)
+  : records_(records)
+  , uniform_(std::holds_alternative<UniformBackground>(background))
+  , ones_(TexelPatterns::Count * records.texels().slots(), 1.0f)
+{
+  const SweepTexels& texels = records.texels();
+  irradiance_ = uniform_ ? ones_ : irradianceOfPoints(texels, records.patterns(), background);
+  open_ = openTexels();
+  const int side = texels.resolution() / texels.refinement();
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
-    areas_.push_back(texelArea(texels.resolution(), row));
+    const std::uint32_t texel = texels.texelOfSlot(slot);
+    if (texel != SweepTexels::Empty)
+    {
+      const int row = static_cast<int>(texel) / texels.resolution();
+      const int column = static_cast<int>(texel) % texels.resolution();
+      const int coarseRow = row / texels.refinement();
+      parts_.push_back({ slot, texelIndex(side, coarseRow, column / texels.refinement()),
+        static_cast<float>(texelArea(texels.resolution(), row) / texelArea(side, coarseRow)) });
+    }
   }
 }
 
-SweepTextures::FineTexels SweepTextures::fineTexels(unsigned sphere) const
+SweepTextures::FineTexels SweepTextures::openTexels() const
 {
   const std::size_t slots = records_.texels().slots();
-  const std::size_t groups = records_.texels().groups();
-  FineTexels fine{ openIrradiance_, std::vector<float>(slots, 1.0f),
-    records_.outsideWeights(sphere) };
-  const CutSphere* cut = records_.cut(sphere);
-  if (cut == nullptr)
-  {
-    return fine;
-  }
-  const std::vector<float> ones(slots, 1.0f);
-  std::vector<float> points(slots, 0.0f);
-  std::vector<float> irradiance(slots, 0.0f);
-  std::array<MaskedTerms, TexelPatterns::Count> counted;
-  std::array<MaskedTerms, TexelPatterns::Count> weighted;
-  for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
-  {
-    const GroupMask* exposed = cut->exposure.ofPattern(p, groups);
-    counted[p] = { exposed, ones.data() };
-    weighted[p] = { exposed, irradiance_.data() + p * slots };
-  }
-  addMasked(groups, counted.data(), counted.size(), points.data());
-  addMasked(groups, weighted.data(), weighted.size(), irradiance.data());
+  FineTexels fine{ std::vector<float>(slots), std::vector<float>(slots, 1.0f),
+    records_.openWeights().total };
   for (std::size_t slot = 0; slot < slots; ++slot)
   {
-    fine.share[slot] = points[slot] / TexelPatterns::Count;
-    if (points[slot] < TexelPatterns::Count)
+    double sum = 0;
+    for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
     {
-      fine.irradiance[slot] = points[slot] > 0 ? irradiance[slot] / points[slot] : 0.0f;
+      sum += static_cast<double>(irradiance_[TexelPatterns::index(p, slot)]);
+    }
+    fine.irradiance[slot] = static_cast<float>(sum / TexelPatterns::Count);
+  }
+  return fine;
+}
+
+SweepTextures::FineTexels SweepTextures::cutTexels(const CutSphere& cut) const
+{
+  const TexelExposure& exposure = cut.exposure;
+  FineTexels fine = open_;
+  fine.weight = records_.outsideWeights(cut);
+  for (std::size_t slot = 0; slot < fine.share.size(); ++slot)
+  {
+    const bool outside = (exposure.bits[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
+    fine.share[slot] = outside ? 1.0f : 0.0f;
+  }
+  const std::size_t rimTexels = exposure.rimGroups.size() * GroupSize;
+  std::vector<float> points(rimTexels, 0.0f);
+  std::vector<float> irradiance(rimTexels, 0.0f);
+  records_.addOverPoints(cut, ones_, points.data());
+  if (!uniform_)
+  {
+    records_.addOverPoints(cut, irradiance_, irradiance.data());
+  }
+  for (std::size_t i = 0; i < rimTexels; ++i)
+  {
+    const std::size_t slot = exposure.rimGroups[i / GroupSize] * GroupSize + i % GroupSize;
+    fine.share[slot] = points[i] / TexelPatterns::Count;
+    if (!uniform_ && points[i] > 0 && points[i] < TexelPatterns::Count)
+    {
+      fine.irradiance[slot] = irradiance[i] / points[i];
     }
   }
   return fine;
@@ -78,37 +107,22 @@ SweepTextures::FineTexels SweepTextures::fineTexels(unsigned sphere) const
 void SweepTextures::coarsen(const FineTexels& fine, const float* sums, const float* weight,
   float* values, float* shares) const
 {
-  const SweepTexels& texels = records_.texels();
-  const int side = texels.resolution() / texels.refinement();
-  const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  std::vector<double> light(count, 0.0);
-  std::vector<double> outside(count, 0.0);
-  std::vector<double> area(count, 0.0);
-  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
+  const int side = records_.texels().resolution() / records_.texels().refinement();
+  std::fill(values, values + side * side, 0.0f);
+  std::fill(shares, shares + side * side, 0.0f);
+  for (const Part& part : parts_)
   {
-    const std::uint32_t texel = texels.texelOfSlot(slot);
-    if (texel == SweepTexels::Empty)
+    if (weight[part.slot] > 0)
     {
-      continue;
-    }
-    const int row = static_cast<int>(texel) / texels.resolution();
-    const int column = static_cast<int>(texel) % texels.resolution();
-    const std::size_t target =
-      texelIndex(side, row / texels.refinement(), column / texels.refinement());
-    const double size = areas_[static_cast<std::size_t>(row)];
-    area[target] += size;
-    if (weight[slot] > 0)
-    {
-      const double exposed = size * static_cast<double>(fine.share[slot]);
-      const float open = std::min(sums[slot] / weight[slot], 1.0f);
-      light[target] += exposed * static_cast<double>(open) * fine.irradiance[slot];
-      outside[target] += exposed;
+      const float exposed = part.area * fine.share[part.slot];
+      const float open = std::min(sums[part.slot] / weight[part.slot], 1.0f);
+      values[part.texel] += exposed * open * fine.irradiance[part.slot];
+      shares[part.texel] += exposed;
     }
   }
-  for (std::size_t i = 0; i < count; ++i)
+  for (int i = 0; i < side * side; ++i)
   {
-    values[i] = outside[i] > 0 ? static_cast<float>(light[i] / outside[i]) : 0.0f;
-    shares[i] = static_cast<float>(outside[i] / area[i]);
+    values[i] = shares[i] > 0 ? values[i] / shares[i] : 0.0f;
   }
 }
 
@@ -123,7 +137,13 @@ void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
     std::fill(shares, shares + side * side, records_.isBuried(sphere) ? 0.0f : 1.0f);
     return;
   }
-  const FineTexels fine = fineTexels(sphere);
+  const CutSphere* cut = records_.cut(sphere);
+  if (cut == nullptr)
+  {
+    coarsen(open_, sums, open_.weight.data(), values, shares);
+    return;
+  }
+  const FineTexels fine = cutTexels(*cut);
   const std::vector<float> dark(sums == nullptr ? texels.slots() : 0, 0.0f);
   coarsen(fine, sums == nullptr ? dark.data() : sums, fine.weight.data(), values, shares);
 }
@@ -139,7 +159,8 @@ SweepTextures::SquaredError SweepTextures::squaredError(unsigned sphere) const
     error.area = records_.isBuried(sphere) ? 0 : 4 * Pi;
     return error;
   }
-  const FineTexels fine = fineTexels(sphere);
+  const CutSphere* cut = records_.cut(sphere);
+  const FineTexels fine = cut == nullptr ? open_ : cutTexels(*cut);
   std::vector<float> shares(count);
   std::vector<float> values(SweepSubsets * count);
   std::vector<float> weight(texels.slots());

@@ -36,23 +36,34 @@ public:
   [[nodiscard]] SquaredError squaredError(unsigned sphere) const;
 
 private:
-  /// What is common to all fine texels of one sphere.
+  /// What is common to all fine texels of one sphere, [slots] each.
   struct FineTexels
   {
-    std::vector<float> irradiance; ///< [slots] of the open outside part
-    std::vector<float> share;      ///< [slots] outside share
-    std::vector<float> weight;     ///< [slots] sum(w)
+    std::vector<float> irradiance; ///< of the open outside part
+    std::vector<float> share;      ///< outside share
+    std::vector<float> weight;     ///< sum(w)
   };
-  [[nodiscard]] FineTexels fineTexels(unsigned sphere) const;
+  [[nodiscard]] FineTexels openTexels() const;
+  [[nodiscard]] FineTexels cutTexels(const CutSphere& cut) const;
 
   /// @param weight [slots], in place of that of the fine texels
   void coarsen(const FineTexels& fine, const float* sums, const float* weight, float* values,
     float* shares) const;
 
   const VisibilityRecords& records_;
-  std::vector<float> irradiance_;     ///< [patterns][slots]
-  std::vector<float> openIrradiance_; ///< [slots], mean over the patterns
-  std::vector<double> areas_;         ///< of a fine texel, by row
+  bool uniform_;                  ///< the irradiance of an open surface is 1 everywhere
+  std::vector<float> irradiance_; ///< in the order of TexelPatterns
+  std::vector<float> ones_;       ///< as many
+  FineTexels open_;               ///< of a sphere that nothing overlaps
+
+  /// A fine texel of the sweep and the texel of the texture that it is a part of.
+  struct Part
+  {
+    std::size_t slot;
+    std::size_t texel;
+    float area; ///< its share of the texel's area
+  };
+  std::vector<Part> parts_;
 };
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelExposure.h"
 
-#include "Constants.h"
 #include "TexelMask.h"
 
 #include <cmath>
@@ -10,60 +9,45 @@ namespace po
 {
 namespace
 {
-/// A cap with what decides a whole texel: cosines of the angle between the axis and the texel's
-/// centre, by row of the fine grid.
-struct PreparedCap
+/// Takes texels that a cap covers from `outside` and returns, [caps][groups], those of which it may
+/// cover a part.
+std::vector<GroupMask> classify(
+  const SweepTexels& texels, const std::vector<BuriedCap>& caps, std::vector<GroupMask>& outside)
 {
-  Vec3f axis;
-  float cosine;
-  std::vector<float> allBuried;  ///< above it the whole texel is inside the cap
-  std::vector<float> someBuried; ///< at or above it a part is
-};
-
-PreparedCap prepare(const BuriedCap& cap, const std::vector<double>& texelRadii)
-{
-  PreparedCap prepared{ cap.axis.as<float>(), static_cast<float>(cap.cosine), {}, {} };
-  const double halfAngle = std::acos(cap.cosine);
-  for (const double radius : texelRadii)
+  const std::size_t groups = texels.groups();
+  std::vector<GroupMask> parts(caps.size() * groups);
+  std::vector<GroupMask> covered(groups);
+  for (std::size_t i = 0; i < caps.size(); ++i)
   {
-    // A little wider than the texel: rounding may then cost time, but never a wrong answer.
-    const double reach = radius + 1e-5;
-    prepared.allBuried.push_back(
-      halfAngle > reach ? static_cast<float>(std::cos(halfAngle - reach)) : 2.0f);
-    prepared.someBuried.push_back(
-      halfAngle + reach < Pi ? static_cast<float>(std::cos(halfAngle + reach)) : -2.0f);
+    const double sine = std::sqrt((1 - caps[i].cosine) * (1 + caps[i].cosine));
+    classifyCap(texels.discs(), caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine),
+      static_cast<float>(sine), covered.data(), parts.data() + i * groups);
+    for (std::size_t g = 0; g < groups; ++g)
+    {
+      outside[g] = static_cast<GroupMask>(outside[g] & ~covered[g]);
+    }
   }
-  return prepared;
+  return parts;
 }
 
-enum class Cover
+std::vector<std::uint32_t> groupsWithRim(
+  const std::vector<GroupMask>& parts, const std::vector<GroupMask>& outside)
 {
-  None,
-  Part,
-  All
-};
-
-/// How much of a group of texels lies inside a cap.
-Cover coverOf(const SweepTexels& texels, std::size_t group, const PreparedCap& cap)
-{
-  bool all = true;
-  bool none = true;
-  for (std::size_t slot = group * GroupSize; slot < (group + 1) * GroupSize; ++slot)
+  std::vector<GroupMask> rim(outside.size(), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i)
   {
-    const auto row = static_cast<std::size_t>(texels.rowOf(slot));
-    const float cosine = dot(texels.center(slot), cap.axis);
-    all = all && cosine > cap.allBuried[row];
-    none = none && cosine < cap.someBuried[row];
+    GroupMask& mask = rim[i % outside.size()];
+    mask = static_cast<GroupMask>(mask | parts[i]);
   }
-  return all ? Cover::All : (none ? Cover::None : Cover::Part);
-}
-
-void clearGroup(TexelExposure& exposure, std::size_t group, std::size_t groups)
-{
-  for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
+  std::vector<std::uint32_t> groups;
+  for (std::uint32_t g = 0; g < outside.size(); ++g)
   {
-    exposure.bits[pattern * groups + group] = 0;
+    if ((rim[g] & outside[g]) != 0)
+    {
+      groups.push_back(g);
+    }
   }
+  return groups;
 }
 }
 
@@ -71,20 +55,23 @@ TexelExposure exposeTexels(
   const SweepTexels& texels, const TexelPatterns& patterns, const std::vector<BuriedCap>& caps)
 {
   const std::size_t groups = texels.groups();
-  TexelExposure exposure{ texels.allBits() };
-  for (const BuriedCap& buried : caps)
+  std::vector<GroupMask> outside = texels.allBits();
+  const std::vector<GroupMask> parts = classify(texels, caps, outside);
+  TexelExposure exposure;
+  exposure.rimGroups = groupsWithRim(parts, outside);
+  exposure.bits.reserve(TexelPatterns::Count * groups);
+  for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {
-    const PreparedCap cap = prepare(buried, texels.angularRadii());
-    for (std::size_t group = 0; group < groups; ++group)
+    exposure.bits.insert(exposure.bits.end(), outside.begin(), outside.end());
+  }
+  for (std::size_t i = 0; i < caps.size(); ++i)
+  {
+    for (const std::uint32_t g : exposure.rimGroups)
     {
-      const Cover cover = coverOf(texels, group, cap);
-      if (cover == Cover::All)
+      if ((parts[i * groups + g] & outside[g]) != 0)
       {
-        clearGroup(exposure, group, groups);
-      }
-      else if (cover == Cover::Part)
-      {
-        clearCap(patterns, group, cap.axis, cap.cosine, exposure.bits.data(), groups);
+        clearCap(patterns, g, caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine),
+          exposure.bits.data() + g, groups);
       }
     }
   }

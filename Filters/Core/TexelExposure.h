@@ -5,7 +5,7 @@
 #include "OverlapFinder.h"
 #include "SweepTexels.h"
 
-#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace po
@@ -13,8 +13,8 @@ namespace po
 /// Which points of a particle's texels lie outside all other spheres.
 struct TexelExposure
 {
-  /// [TexelPatterns::Count][groups]
-  std::vector<GroupMask> bits;
+  std::vector<GroupMask> bits;          ///< [TexelPatterns::Count][groups]
+  std::vector<std::uint32_t> rimGroups; ///< those in which patterns may differ
 
   [[nodiscard]] const GroupMask* ofPattern(std::size_t pattern, std::size_t groups) const
   {

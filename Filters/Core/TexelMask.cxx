@@ -2,6 +2,7 @@
 #include "TexelMask.h"
 
 #include <cmath>
+#include <cstring>
 
 // Highway compiles this file once for each instruction set (SSE4, AVX2, AVX-512, NEON, ...) and
 // chooses when it runs. No sum is reordered, so that only fused multiply-adds make a difference.
@@ -20,9 +21,15 @@ using Floats = hn::CappedTag<float, GroupSize>;
 /// The lanes that are set, as the lowest bits of a number.
 inline unsigned bitsOf(Floats d, hn::Mask<Floats> lanes)
 {
-  HWY_ALIGN std::uint8_t bytes[8] = {};
+  HWY_ALIGN std::uint8_t bytes[8] = {}; // least significant first
   hn::StoreMaskBits(d, lanes, bytes);
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  std::uint16_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
+#else
   return bytes[0] | unsigned(bytes[1]) << 8;
+#endif
 }
 
 inline hn::Mask<Floats> lanesOf(Floats d, unsigned bits)
@@ -187,22 +194,20 @@ bool forEachBit(unsigned bits, const Hide& hide)
   return true;
 }
 
-/// Spheres right in front hide most: those first, so that hidden receivers are done with soon.
+/// Calls hide(chunk, covered, bits) until it returns false; spheres right in front, which hide
+/// most, come first in each chunk, so that hidden receivers are done with soon.
 template <typename Hide>
 bool hideBehindList(OccluderList occluders, const ProjectedSphere& receiver, const Hide& hide)
 {
-  for (const bool near : { true, false })
+  for (int index = occluders.first; index != OccluderList::Empty;)
   {
-    for (int index = occluders.first; index != OccluderList::Empty;)
+    const OccluderChunk& chunk = occluders.chunks[index];
+    const Meeting meeting = meet(chunk, receiver);
+    if (!hide(chunk, meeting.covered, meeting.near) || !hide(chunk, false, meeting.far))
     {
-      const OccluderChunk& chunk = occluders.chunks[index];
-      const Meeting meeting = meet(chunk, receiver);
-      if (!hide(chunk, meeting.covered, near ? meeting.near : meeting.far))
-      {
-        return false;
-      }
-      index = chunk.next;
+      return false;
     }
+    index = chunk.next;
   }
   return true;
 }
@@ -238,17 +243,16 @@ bool behindWithin(const FacingTexels& facing, OccluderList occluders,
 
 using Masks = hn::CappedTag<GroupMask, 16>;
 
-/// mask &= other; false if nothing is left.
-inline bool intersect(std::size_t groups, const GroupMask* other, GroupMask* mask)
+inline bool both(std::size_t groups, const GroupMask* other, GroupMask* mask)
 {
   const Masks d;
   auto left = hn::Zero(d);
   std::size_t g = 0;
   for (; g + hn::Lanes(d) <= groups; g += hn::Lanes(d))
   {
-    const auto both = hn::And(hn::LoadU(d, mask + g), hn::LoadU(d, other + g));
-    hn::StoreU(both, d, mask + g);
-    left = hn::Or(left, both);
+    const auto common = hn::And(hn::LoadU(d, mask + g), hn::LoadU(d, other + g));
+    hn::StoreU(common, d, mask + g);
+    left = hn::Or(left, common);
   }
   unsigned rest = 0;
   for (; g < groups; ++g)
@@ -259,12 +263,37 @@ inline bool intersect(std::size_t groups, const GroupMask* other, GroupMask* mas
   return rest != 0 || !hn::AllTrue(d, hn::Eq(left, hn::Zero(d)));
 }
 
+/// Takes what the occluders of the set bits hide, by their places in the table; false if nothing is
+/// left. That is asked at the end only, so that the loads need not wait for each other.
+inline bool lookUp(const OffsetMasks& masks, unsigned bits, const std::int32_t* column,
+  const std::int32_t* row, GroupMask* mask)
+{
+  if (bits == 0)
+  {
+    return true;
+  }
+  const Masks d;
+  bool open = false;
+  for (std::size_t g = 0; g < OffsetMasks::Groups; g += hn::Lanes(d))
+  {
+    auto left = hn::LoadU(d, mask + g);
+    forEachBit(bits,
+      [&](std::size_t i)
+      {
+        left = hn::And(left, hn::LoadU(d, masks.at(column[i], row[i]) + g));
+        return true;
+      });
+    hn::StoreU(left, d, mask + g);
+    open = open || !hn::AllTrue(d, hn::Eq(left, hn::Zero(d)));
+  }
+  return open;
+}
+
 bool behindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
   const ProjectedSphere& r, GroupMask* mask)
 {
   const Floats d;
   const hn::RebindToSigned<Floats> di;
-  const std::size_t groups = facing.groups();
   const float touch = 4 * r.radius * r.radius;
   const auto scale = hn::Set(d, OffsetMasks::CellsPerRadius / r.radius);
   const auto originX = hn::Set(d, masks.originX());
@@ -295,9 +324,7 @@ bool behindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderL
       hn::Store(hn::ConvertTo(di, hn::MulAdd(dx, scale, originX)), di, column + lane);
       hn::Store(hn::ConvertTo(di, hn::MulAdd(dy, scale, originY)), di, row + lane);
     }
-    const bool open =
-      forEachBit(apart,
-        [&](std::size_t i) { return intersect(groups, masks.at(column[i], row[i]), mask); }) &&
+    const bool open = lookUp(masks, apart, column, row, mask) &&
       forEachBit(
         overlapping, [&](std::size_t i) { return hide(facing, seenFrom(r, chunk, i), mask); });
     if (!open)
@@ -313,7 +340,6 @@ void discs(const FacingTexels& facing, float a, float step, int count, float b, 
 {
   const Floats d;
   const auto one = hn::Set(d, 1.0f);
-  const std::size_t groups = facing.groups();
   for (const std::uint32_t g : facing.facingGroups)
   {
     for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
@@ -325,7 +351,7 @@ void discs(const FacingTexels& facing, float a, float step, int count, float b, 
       {
         const auto du = hn::Sub(u, hn::Set(d, a + static_cast<float>(k) * step));
         const unsigned inside = bitsOf(d, hn::Lt(hn::MulAdd(du, du, dv2), one));
-        GroupMask& mask = masks[static_cast<std::size_t>(k) * groups + g];
+        GroupMask& mask = masks[static_cast<std::size_t>(k) * OffsetMasks::Groups + g];
         mask = static_cast<GroupMask>(mask & ~(inside << lane));
       }
     }
@@ -362,6 +388,21 @@ void addList(std::size_t groups, const MaskedTerms* list, std::size_t count, flo
   }
 }
 
+void addPoints(const GroupMask* mask, std::size_t stride, const float* terms, float* sums)
+{
+  const Floats d;
+  for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+  {
+    auto sum = hn::LoadU(d, sums + lane);
+    for (std::size_t p = 0; p < PointsPerTexel; ++p)
+    {
+      const auto set = lanesOf(d, unsigned(mask[p * stride]) >> lane);
+      sum = hn::Add(sum, hn::IfThenElseZero(set, hn::LoadU(d, terms + p * GroupSize + lane)));
+    }
+    hn::StoreU(sum, d, sums + lane);
+  }
+}
+
 void addAll(std::size_t groups, const GroupMask* mask, const float* terms, float* sums)
 {
   for (std::size_t g = 0; g < groups; ++g)
@@ -373,8 +414,41 @@ void addAll(std::size_t groups, const GroupMask* mask, const float* terms, float
   }
 }
 
+void classify(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
+  GroupMask* part)
+{
+  // Rounding may cost time, but never a wrong answer.
+  constexpr float slack = 1e-6f;
+  const Floats d;
+  const auto c = hn::Set(d, cosine);
+  const auto s = hn::Set(d, sine);
+  const std::size_t groups = discs.x.size() / GroupSize;
+  for (std::size_t g = 0; g < groups; ++g)
+  {
+    unsigned all = 0;
+    unsigned none = 0;
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+    {
+      const std::size_t i = g * GroupSize + lane;
+      const auto xy = hn::MulAdd(hn::LoadU(d, discs.y.data() + i), hn::Set(d, axis.y),
+        hn::Mul(hn::LoadU(d, discs.x.data() + i), hn::Set(d, axis.x)));
+      const auto height = hn::MulAdd(hn::LoadU(d, discs.z.data() + i), hn::Set(d, axis.z), xy);
+      const auto cosRadius = hn::LoadU(d, discs.cosRadius.data() + i);
+      const auto sinRadius = hn::LoadU(d, discs.sinRadius.data() + i);
+      // cos(half angle -+ radius), for caps larger than the texel and with a gap larger than it
+      const auto cc = hn::Mul(c, cosRadius);
+      const auto inner = hn::Add(hn::MulAdd(s, sinRadius, cc), hn::Set(d, slack));
+      const auto outer = hn::Sub(hn::NegMulAdd(s, sinRadius, cc), hn::Set(d, slack));
+      all |= bitsOf(d, hn::And(hn::Gt(height, inner), hn::Lt(c, cosRadius))) << lane;
+      none |= bitsOf(d, hn::And(hn::Lt(height, outer), hn::Gt(c, hn::Neg(cosRadius)))) << lane;
+    }
+    covered[g] = static_cast<GroupMask>(all);
+    part[g] = static_cast<GroupMask>(~(all | none));
+  }
+}
+
 void clearBuried(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
-  GroupMask* bits, std::size_t groups)
+  GroupMask* bits, std::size_t stride)
 {
   const Floats d;
   const auto x = hn::Set(d, axis.x);
@@ -386,13 +460,13 @@ void clearBuried(const TexelPatterns& patterns, std::size_t group, Vec3f axis, f
     unsigned buried = 0;
     for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
     {
-      const std::size_t i = patterns.index(pattern, group * GroupSize + lane);
+      const std::size_t i = TexelPatterns::index(pattern, group * GroupSize + lane);
       const auto xy = hn::MulAdd(
         hn::LoadU(d, patterns.y.data() + i), y, hn::Mul(hn::LoadU(d, patterns.x.data() + i), x));
       const auto height = hn::MulAdd(hn::LoadU(d, patterns.z.data() + i), z, xy);
       buried |= bitsOf(d, hn::Gt(height, limit)) << lane;
     }
-    GroupMask& mask = bits[pattern * groups + group];
+    GroupMask& mask = bits[pattern * stride];
     mask = static_cast<GroupMask>(mask & ~buried);
   }
 }
@@ -407,9 +481,12 @@ HWY_EXPORT(hideWithin);
 HWY_EXPORT(behind);
 HWY_EXPORT(behindWithin);
 HWY_EXPORT(behindEqual);
+HWY_EXPORT(both);
 HWY_EXPORT(discs);
 HWY_EXPORT(addAll);
 HWY_EXPORT(addList);
+HWY_EXPORT(addPoints);
+HWY_EXPORT(classify);
 HWY_EXPORT(clearBuried);
 
 bool hideTexels(const FacingTexels& facing, const Occluder& occluder, GroupMask* mask)
@@ -441,16 +518,27 @@ bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, Occlu
   return HWY_DYNAMIC_DISPATCH(behindEqual)(facing, masks, occluders, receiver, mask);
 }
 
+bool intersect(std::size_t groups, const GroupMask* other, GroupMask* mask)
+{
+  return HWY_DYNAMIC_DISPATCH(both)(groups, other, mask);
+}
+
 void clearDiscs(
   const FacingTexels& facing, float a, float step, int count, float b, GroupMask* masks)
 {
   HWY_DYNAMIC_DISPATCH(discs)(facing, a, step, count, b, masks);
 }
 
-void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
-  GroupMask* bits, std::size_t groups)
+void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
+  GroupMask* part)
 {
-  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, axis, cosine, bits, groups);
+  HWY_DYNAMIC_DISPATCH(classify)(discs, axis, cosine, sine, covered, part);
+}
+
+void clearCap(const TexelPatterns& patterns, std::size_t group, Vec3f axis, float cosine,
+  GroupMask* bits, std::size_t stride)
+{
+  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, axis, cosine, bits, stride);
 }
 
 void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, float* sums)
@@ -461,6 +549,11 @@ void addMasked(std::size_t groups, const GroupMask* mask, const float* terms, fl
 void addMasked(std::size_t groups, const MaskedTerms* list, std::size_t count, float* sums)
 {
   HWY_DYNAMIC_DISPATCH(addList)(groups, list, count, sums);
+}
+
+void addOverPoints(const GroupMask* mask, std::size_t stride, const float* terms, float* sums)
+{
+  HWY_DYNAMIC_DISPATCH(addPoints)(mask, stride, terms, sums);
 }
 }
 #endif

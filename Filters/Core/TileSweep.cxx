@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TileSweep.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace po
 {
-void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::Octave& octave,
+void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::Band& band,
   const SweptDirection& direction, SeenMarks& seen)
 {
-  octave_ = octave;
-  cells_.begin(tile, octave.largestRadius);
+  band_ = band;
+  cells_.begin(tile, band.largestRadius);
   if (direction.useClosedCells)
   {
-    closed_.begin(tile, octave.largestRadius);
+    closed_.begin(tile, band.largestRadius);
   }
+  SweepCounters& counters = counters_[direction.full ? 1 : 0];
   std::uint64_t visited = 0;
   const std::size_t slabs = order.slabs();
   for (std::size_t i = 0; i < slabs; ++i)
@@ -26,14 +28,14 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
         direction.upward ? slab.last[-1 - static_cast<std::ptrdiff_t>(k)] : slab.first[k];
       if (!visit(tile.first[DepthOrder::place(key)], direction, seen))
       {
-        counters_.visits += visited;
-        counters_.below += tile.size() - visited;
+        counters.visits += visited;
+        counters.below += tile.size() - visited;
         return;
       }
       ++visited;
     }
   }
-  counters_.visits += visited;
+  counters.visits += visited;
 }
 
 bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, SeenMarks& seen)
@@ -43,7 +45,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
   sphere.z = direction.upward ? sphere.z : -sphere.z;
   if (s.role == TileRole::Other)
   {
-    const bool hidden = sphere.index < octave_.first && (seen[sphere.index] & direction.bit()) == 0;
+    const bool hidden = sphere.index < band_.first && (seen[sphere.index] & direction.bit()) == 0;
     if (hidden && !bounded)
     {
       return true;
@@ -63,7 +65,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
       }
       if (closed_.hides(sphere))
       {
-        ++counters_.closed;
+        ++counters_[direction.full ? 1 : 0].closed;
         return true;
       }
     }
@@ -88,7 +90,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
 bool TileSweep::sees(
   const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
 {
-  mask_ = direction.facing.facing;
+  std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
   if (!passes(cells_.cellOf(sphere), sphere, direction) ||
     !passes(cells_.wide(), sphere, direction) ||
     !records_.clearInside(sphere.index, direction.pattern, mask_.data()))

@@ -10,6 +10,8 @@
 #include "TexelMask.h"
 #include "VisibilityRecords.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct SweptDirection
   std::size_t index;              ///< in the block
   float distance;                 ///< light is blocked within it: local, infinite when unbounded
   bool upward;                    ///< the light comes from where z grows
+  bool full;                      ///< all spheres take part, not only those ever seen
   bool useClosedCells;
 
   /// Of this direction in marks by sphere.
@@ -59,16 +62,18 @@ class TileSweep
 public:
   explicit TileSweep(VisibilityRecords& records)
     : records_(records)
+    , mask_(std::max(OffsetMasks::Groups, records.texels().groups()), 0)
   {
   }
 
   /// @param order of the tile's spheres
-  /// @param octave of the tile's receivers; those before it were swept already
+  /// @param band of the tile's receivers; those before it were swept already
   /// @param seen receivers that show a texel are marked
-  void run(const DepthTile& tile, DepthOrder& order, const SweepScene::Octave& octave,
+  void run(const DepthTile& tile, DepthOrder& order, const SweepScene::Band& band,
     const SweptDirection& direction, SeenMarks& seen);
 
-  [[nodiscard]] const SweepCounters& counters() const { return counters_; }
+  /// @param full of directions in which all spheres took part, or of the others
+  [[nodiscard]] const SweepCounters& counters(bool full) const { return counters_[full ? 1 : 0]; }
 
 private:
   /// False when nothing below can be seen.
@@ -81,9 +86,9 @@ private:
   VisibilityRecords& records_;
   OccluderCells cells_;
   ClosedCells closed_;
-  SweepScene::Octave octave_{};
-  std::vector<GroupMask> mask_;
-  SweepCounters counters_;
+  SweepScene::Band band_{};
+  std::vector<GroupMask> mask_; ///< of the sphere at hand
+  std::array<SweepCounters, 2> counters_;
 };
 }
 

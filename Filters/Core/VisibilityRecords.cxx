@@ -68,14 +68,7 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
     return surface != Surface::Buried;
   }
   const CutSphere& cut = *cuts_[sphere].load(std::memory_order_relaxed);
-  const GroupMask* exposed = cut.exposure.ofPattern(pattern, texels_.groups());
-  unsigned left = 0;
-  for (std::size_t g = 0; g < texels_.groups(); ++g)
-  {
-    mask[g] = static_cast<GroupMask>(mask[g] & exposed[g]);
-    left |= mask[g];
-  }
-  return left != 0;
+  return intersect(texels_.groups(), cut.exposure.ofPattern(pattern, texels_.groups()), mask);
 }
 
 VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
@@ -105,8 +98,11 @@ std::unique_ptr<CutSphere> VisibilityRecords::makeCut(const std::vector<BuriedCa
   auto cut = std::make_unique<CutSphere>();
   cut->caps = caps;
   cut->exposure = exposeTexels(texels_, patterns_, cut->caps);
-  cut->pastWeights.assign(texels_.slots(), 0.0f);
-  addPatternWeights(*cut, open_.pastPatterns, cut->pastWeights);
+  cut->pastWeights.assign(cut->exposure.rimGroups.size() * GroupSize, 0.0f);
+  if (epoch_ > 0)
+  {
+    addOverPoints(*cut, open_.pastPatterns, cut->pastWeights.data());
+  }
   return cut;
 }
 
@@ -146,14 +142,13 @@ void VisibilityRecords::addBlock(const std::vector<FacingTexels>& directions,
   for (std::size_t index = 0; index < directions.size(); ++index)
   {
     const FacingTexels& facing = directions[index];
-    const auto add = [&](std::vector<float>& weights, std::size_t row)
+    addMasked(groups, facing.facing.data(), facing.weight.data(), open_.total.data());
+    addMasked(groups, facing.facing.data(), facing.weight.data(),
+      open_.subsets.data() + subset * texels_.slots());
+    for (std::size_t slot = 0; slot < texels_.slots(); ++slot)
     {
-      addMasked(
-        groups, facing.facing.data(), facing.weight.data(), weights.data() + row * texels_.slots());
-    };
-    add(open_.total, 0);
-    add(open_.subsets, subset);
-    add(open_.latestPatterns, patterns[index]);
+      open_.latestPatterns[TexelPatterns::index(patterns[index], slot)] += facing.weight[slot];
+    }
   }
   tbb::parallel_for(std::size_t(0), chunks_.size(),
     [&](std::size_t i)
@@ -198,16 +193,16 @@ void VisibilityRecords::addChunk(
   }
 }
 
-void VisibilityRecords::addPatternWeights(
-  const CutSphere& cut, const std::vector<float>& patternWeights, std::vector<float>& sums) const
+void VisibilityRecords::addOverPoints(
+  const CutSphere& cut, const std::vector<float>& terms, float* sums) const
 {
-  std::array<MaskedTerms, TexelPatterns::Count> terms;
-  for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
+  const TexelExposure& exposure = cut.exposure;
+  for (std::size_t i = 0; i < exposure.rimGroups.size(); ++i)
   {
-    terms[p] = { cut.exposure.ofPattern(p, texels_.groups()),
-      patternWeights.data() + p * texels_.slots() };
+    const std::uint32_t g = exposure.rimGroups[i];
+    po::addOverPoints(exposure.bits.data() + g, texels_.groups(),
+      terms.data() + TexelPatterns::index(0, g * GroupSize), sums + i * GroupSize);
   }
-  addMasked(texels_.groups(), terms.data(), terms.size(), sums.data());
 }
 
 void VisibilityRecords::nextEpoch()
@@ -217,7 +212,7 @@ void VisibilityRecords::nextEpoch()
     [&](std::size_t i)
     {
       CutSphere& cut = *ownedCuts_[i];
-      addPatternWeights(cut, open_.latestPatterns, cut.pastWeights);
+      addOverPoints(cut, open_.latestPatterns, cut.pastWeights.data());
       cut.exposure = exposeTexels(texels_, patterns_, cut.caps);
     });
   std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(), open_.latestPatterns.begin(),
@@ -243,21 +238,20 @@ const CutSphere* VisibilityRecords::cut(unsigned sphere) const
   return cuts_[sphere].load(std::memory_order_acquire);
 }
 
-std::vector<float> VisibilityRecords::outsideWeights(unsigned sphere) const
+std::vector<float> VisibilityRecords::outsideWeights(const CutSphere& cut) const
 {
-  const CutSphere* found = cut(sphere);
-  if (found == nullptr)
+  const TexelExposure& exposure = cut.exposure;
+  std::vector<float> weights(texels_.slots(), 0.0f);
+  addMasked(texels_.groups(), exposure.ofPattern(0, 0), open_.total.data(), weights.data());
+  std::vector<float> rim = cut.pastWeights;
+  addOverPoints(cut, open_.latestPatterns, rim.data());
+  for (std::size_t i = 0; i < rim.size(); ++i)
   {
-    return open_.total;
-  }
-  std::vector<float> weights = found->pastWeights;
-  addPatternWeights(*found, open_.latestPatterns, weights);
-  for (std::size_t slot = 0; slot < weights.size(); ++slot)
-  {
-    // A texel that no rim crosses: the same sum in another order. Take the one that the sums are
+    const std::size_t slot = exposure.rimGroups[i / GroupSize] * GroupSize + i % GroupSize;
+    // A texel that no rim crosses: the same sum in another order. Keep the one that the sums are
     // compared with, so that an open texel is exactly 1.
-    const float total = open_.total[slot];
-    weights[slot] = weights[slot] > total * (1 - 1e-4f) ? total : weights[slot];
+    const bool whole = rim[i] > open_.total[slot] * (1 - 1e-4f);
+    weights[slot] = whole ? open_.total[slot] : rim[i];
   }
   return weights;
 }

@@ -28,7 +28,7 @@ struct CutSphere
 {
   std::vector<BuriedCap> caps;
   TexelExposure exposure;
-  std::vector<float> pastWeights; ///< [slots] of exposed points, of ended epochs
+  std::vector<float> pastWeights; ///< [rimGroups][GroupSize] of exposed points, of ended epochs
 };
 
 /// Weights that an open texel gets: what all spheres have in common.
@@ -36,8 +36,8 @@ struct OpenWeights
 {
   std::vector<float> total;          ///< [slots], summed in the order of the directions
   std::vector<float> subsets;        ///< [SweepSubsets][slots]
-  std::vector<float> pastPatterns;   ///< [patterns][slots], ended epochs
-  std::vector<float> latestPatterns; ///< [patterns][slots], this epoch
+  std::vector<float> pastPatterns;   ///< in the order of TexelPatterns, ended epochs
+  std::vector<float> latestPatterns; ///< in the order of TexelPatterns, this epoch
 };
 
 /// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
@@ -84,8 +84,13 @@ public:
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
 
-  /// The weights of the points of a sphere that are outside, [slots]: what an open texel sums to.
-  [[nodiscard]] std::vector<float> outsideWeights(unsigned sphere) const;
+  /// The weights of the points of a cut sphere that are outside, [slots]: what an open texel sums
+  /// to.
+  [[nodiscard]] std::vector<float> outsideWeights(const CutSphere& cut) const;
+
+  /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
+  /// to sums [rimGroups][GroupSize].
+  void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
 
   [[nodiscard]] std::uint64_t buried() const;
 
@@ -116,8 +121,6 @@ private:
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
   Chunk& findOrMakeChunk(unsigned sphere);
   void addChunk(std::size_t index, const std::vector<FacingTexels>& directions, std::size_t subset);
-  void addPatternWeights(
-    const CutSphere& cut, const std::vector<float>& patternWeights, std::vector<float>& sums) const;
 
   const BakeScene& scene_;
   const SweepScene& order_;
