@@ -53,6 +53,8 @@ void TexelSums::add(
 SumTextures::SumTextures(
   const SweepTexels& texels, const TexelPatterns& patterns, const Background& background)
   : texels_(texels)
+  , uniform_(std::holds_alternative<UniformBackground>(background))
+  , ones_(TexelPatterns::Count * GroupSize, 1.0f)
   , irradiance_(TexelPatterns::Count * texels.slots(), 0.0f)
   , openIrradiance_(texels.slots(), 0.0f)
 {
@@ -67,7 +69,7 @@ SumTextures::SumTextures(
     for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
     {
       const double value = irradiance(normalized(patterns.normal(pattern, slot).as<double>()));
-      irradiance_[patterns.index(pattern, slot)] = static_cast<float>(value);
+      irradiance_[TexelPatterns::index(pattern, slot)] = static_cast<float>(value);
       sum += value;
     }
     openIrradiance_[slot] = static_cast<float>(sum / TexelPatterns::Count);
@@ -80,26 +82,22 @@ SumTextures::SumTextures(
 
 void SumTextures::measureCut(const TexelExposure& exposure, TexelSums& sums) const
 {
-  const std::size_t slots = texels_.slots();
   const std::size_t groups = texels_.groups();
-  const std::vector<float> ones(slots, 1.0f);
-  std::array<MaskedTerms, TexelPatterns::Count> counted;
-  std::array<MaskedTerms, TexelPatterns::Count> weighted;
-  for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
+  for (std::size_t group = 0; group < groups; ++group)
   {
-    const GroupMask* exposed = exposure.ofPattern(pattern, groups);
-    counted[pattern] = { exposed, ones.data() };
-    weighted[pattern] = { exposed, irradiance_.data() + pattern * slots };
+    const GroupMask* exposed = exposure.bits.data() + group;
+    const std::size_t slot = group * GroupSize;
+    addOverPoints(exposed, groups, ones_.data(), sums.shares.data() + slot);
+    addOverPoints(exposed, groups, irradiance_.data() + TexelPatterns::index(0, slot),
+      sums.irradiance.data() + slot);
   }
-  addMasked(groups, counted.data(), counted.size(), sums.shares.data());
-  addMasked(groups, weighted.data(), weighted.size(), sums.irradiance.data());
-  for (std::size_t slot = 0; slot < slots; ++slot)
+  for (std::size_t slot = 0; slot < texels_.slots(); ++slot)
   {
     const float points = sums.shares[slot];
     sums.shares[slot] = points / TexelPatterns::Count;
-    sums.irradiance[slot] = points < TexelPatterns::Count
-      ? sums.irradiance[slot] / std::max(points, 1.0f)
-      : openIrradiance_[slot];
+    sums.irradiance[slot] = uniform_ || points == TexelPatterns::Count
+      ? openIrradiance_[slot]
+      : sums.irradiance[slot] / std::max(points, 1.0f);
   }
 }
 

@@ -17,12 +17,10 @@ namespace po
 /// Interleaved subsets of directions whose spread is the error bar.
 inline constexpr std::size_t DirectionSubsets = 4;
 
-/// The subset of a direction: runs of 16 take turns, as each of them is spread evenly. Turns shift
-/// with every round of the 64 points of a texel, so that all subsets look at all of them.
+/// The subset of a direction: runs of 16 take turns, as each of them is spread evenly.
 [[nodiscard]] inline std::size_t subsetOf(const SharedDirection& direction)
 {
-  const std::size_t shift = direction.index / TexelPatterns::Count;
-  return (direction.index / 16 + shift) % DirectionSubsets;
+  return direction.index / 16 % DirectionSubsets;
 }
 
 /// What a particle of which all is open sums to: the weights of the directions that texels face.
@@ -103,7 +101,9 @@ private:
   [[nodiscard]] std::size_t texelCount() const;
 
   const SweepTexels& texels_;
-  std::vector<float> irradiance_;     ///< [patterns][slots]
+  bool uniform_;                      ///< an open surface receives 1 everywhere
+  std::vector<float> ones_;           ///< for all points of a group
+  std::vector<float> irradiance_;     ///< of all points, in the order of TexelPatterns
   std::vector<float> openIrradiance_; ///< [slots], mean over the patterns
   std::vector<double> areas_;         ///< of a fine texel, by row
 };
