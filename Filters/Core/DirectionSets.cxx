@@ -27,15 +27,18 @@ std::vector<std::vector<Vec3d>> DirectionSets::lattice(int directions, std::uint
   return sets;
 }
 
-std::vector<std::vector<Vec3d>> DirectionSets::independent(int sets, int size, std::uint64_t seed)
+std::vector<std::vector<Vec3d>> DirectionSets::growing(int first, int total, std::uint64_t seed)
 {
-  std::vector<std::vector<Vec3d>> axes;
-  for (int set = 0; set < sets; ++set)
+  std::vector<std::vector<Vec3d>> sets;
+  std::uint64_t turn = 0;
+  for (int done = 0; done < total; ++turn)
   {
-    const auto turn = static_cast<std::uint64_t>(set);
-    axes.push_back(sweepAxes(size / 2, set == 0 ? seed : mixBits(seed + turn)));
+    const int size = std::max(first, done);
+    const auto more = lattice(size, turn == 0 ? seed : mixBits(seed + turn));
+    sets.insert(sets.end(), more.begin(), more.end());
+    done += size;
   }
-  return axes;
+  return sets;
 }
 
 DirectionSets::DirectionSets(const SweepTexels& texels, const Background& background,

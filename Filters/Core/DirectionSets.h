@@ -27,8 +27,9 @@ public:
   /// One lattice of `directions` (an odd number is rounded up), cut into sets.
   static std::vector<std::vector<Vec3d>> lattice(int directions, std::uint64_t seed);
 
-  /// Lattices of `size` directions, each turned by itself, so that one may stop after any of them.
-  static std::vector<std::vector<Vec3d>> independent(int sets, int size, std::uint64_t seed);
+  /// Lattices of `first`, `first`, 2 `first`, 4 `first` ... directions up to `total` together, each
+  /// turned by itself and cut into sets: one may stop after any set.
+  static std::vector<std::vector<Vec3d>> growing(int first, int total, std::uint64_t seed);
 
   /// @param axes of each set. The first two arguments must outlive this.
   DirectionSets(const SweepTexels& texels, const Background& background, std::uint64_t seed,

@@ -17,13 +17,13 @@ namespace po
 {
 namespace
 {
-/// Directions of a set with a target error.
-constexpr int SetSize = 128;
+/// Directions of the first set with a target error.
+constexpr int FirstDirections = 128;
 
 /// Without a target the error bar comes from up to so many particles.
 constexpr std::size_t WatchedParticles = 256;
 
-/// Particles that are at work at a time have so many slots together, of up to 40 bytes.
+/// Particles that are at work at a time have so many slots together, of up to 50 bytes.
 constexpr std::size_t SlotsPerChunk = std::size_t(1) << 18;
 
 /// Memory that a thread uses again and again.
@@ -68,8 +68,8 @@ std::vector<std::vector<Vec3d>> chooseAxes(
 {
   if (options.targetError > 0)
   {
-    return DirectionSets::independent(
-      EmbreeEstimator::MaximumDirections / SetSize, SetSize, settings.seed);
+    return DirectionSets::growing(
+      FirstDirections, EmbreeEstimator::MaximumDirections, settings.seed);
   }
   return DirectionSets::lattice(directionsOf(options, settings), settings.seed);
 }

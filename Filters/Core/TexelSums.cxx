@@ -30,6 +30,7 @@ TexelSums::TexelSums(std::size_t slotCount, bool spread)
 void TexelSums::makeCut()
 {
   weights.assign(slots, 0.0f);
+  subsetWeights.assign(subsets.size(), 0.0f);
   shares.assign(slots, 0.0f);
   irradiance.assign(slots, 0.0f);
 }
@@ -39,14 +40,18 @@ void TexelSums::add(
 {
   const FacingTexels& facing = direction.facing;
   addMasked(facing.groups(), seen, facing.weight.data(), sums.data());
+  const std::size_t subset = subsetOf(direction) * slots;
+  if (hasSubsets())
+  {
+    addMasked(facing.groups(), seen, facing.weight.data(), subsets.data() + subset);
+  }
   if (isCut())
   {
     addMasked(facing.groups(), exposed, facing.weight.data(), weights.data());
   }
-  if (hasSubsets())
+  if (isCut() && hasSubsets())
   {
-    addMasked(
-      facing.groups(), seen, facing.weight.data(), subsets.data() + subsetOf(direction) * slots);
+    addMasked(facing.groups(), exposed, facing.weight.data(), subsetWeights.data() + subset);
   }
 }
 
@@ -174,18 +179,10 @@ SumTextures::SquaredError SumTextures::squaredError(
   const std::size_t count = texelCount();
   std::vector<float> shares(count);
   std::vector<float> values(DirectionSubsets * count);
-  std::vector<float> weights(slots);
+  const std::vector<float>& weights = sums.isCut() ? sums.subsetWeights : open.subsets;
   for (std::size_t subset = 0; subset < DirectionSubsets; ++subset)
   {
-    const float* ofSubset = open.subsets.data() + subset * slots;
-    for (std::size_t slot = 0; slot < slots; ++slot)
-    {
-      // Of a texel that is cut, the outside part of the weights is nearly the same in all subsets.
-      const float total = open.total[slot];
-      const float outside = sums.isCut() ? sums.weights[slot] : total;
-      weights[slot] = total > 0 ? ofSubset[slot] * (outside / total) : 0.0f;
-    }
-    coarsen(sums, sums.subsets.data() + subset * slots, weights.data(),
+    coarsen(sums, sums.subsets.data() + subset * slots, weights.data() + subset * slots,
       values.data() + subset * count, shares.data());
   }
   const int side = texels_.resolution() / texels_.refinement();

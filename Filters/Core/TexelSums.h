@@ -56,10 +56,12 @@ struct TexelSums
   void add(const SharedDirection& direction, const GroupMask* exposed, const GroupMask* seen);
 
   std::size_t slots;
-  bool buried = false;           ///< the whole surface lies inside one other sphere
-  std::vector<float> sums;       ///< of texels that see the background
-  std::vector<float> subsets;    ///< [DirectionSubsets][slots] of the same; may be empty
-  std::vector<float> weights;    ///< of exposed texels; empty where the particle is not cut
+  bool buried = false;        ///< the whole surface lies inside one other sphere
+  std::vector<float> sums;    ///< of texels that see the background
+  std::vector<float> subsets; ///< [DirectionSubsets][slots] of the same; may be empty
+  std::vector<float> weights; ///< of exposed texels; empty where the particle is not cut
+  std::vector<float>
+    subsetWeights;               ///< [DirectionSubsets][slots] of the same; empty without subsets
   std::vector<float> shares;     ///< outside share; empty where the particle is not cut
   std::vector<float> irradiance; ///< of the open outside part; empty where it is not cut
 };
