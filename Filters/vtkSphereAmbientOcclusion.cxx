@@ -2,6 +2,7 @@
 #include "vtkSphereAmbientOcclusion.h"
 
 #include "BakedData.h"
+#include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "ExrBackground.h"
 #include "OccluderInput.h"
@@ -81,9 +82,8 @@ void requireMemory(double needed, std::size_t particles)
   {
     throw std::runtime_error("Baking " + std::to_string(particles) + " particles needs up to " +
       inGigabytes(needed) + " of memory, but " + inGigabytes(available) +
-      " are free: lower TextureResolution, choose the Method Reference or the Encoding "
-      "UInt8Gamma2, "
-      "or bake fewer particles.");
+      " are free: lower TextureResolution, choose the Method Embree or the Encoding "
+      "UInt8Gamma2, or bake fewer particles.");
   }
 }
 
@@ -103,7 +103,7 @@ double sceneMemory(const po::SphereCloud& cloud, const po::Occluders& occluders,
   return po::bakeMemory(cloud.spheres.size(), settings, estimator) + po::occluderMemory(occluders);
 }
 
-/// Sweep is the faster one wherever its memory is there, but knows spheres only.
+/// Sweep is the fastest one for whole sets, wherever its memory is there, but knows spheres only.
 int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& occluders,
   const po::BakeSettings& settings)
 {
@@ -111,7 +111,7 @@ int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& 
   if (method == vtkSphereAmbientOcclusion::Sweep && triangles)
   {
     throw std::invalid_argument("Method Sweep does not see the triangles of the input Occluders: "
-                                "choose the Method Automatic or Reference.");
+                                "choose the Method Automatic or Embree.");
   }
   if (method != vtkSphereAmbientOcclusion::Automatic)
   {
@@ -119,7 +119,7 @@ int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& 
   }
   const bool fits =
     !triangles && sceneMemory(cloud, occluders, settings, po::SweepEstimator()) <= freeMemory();
-  return fits ? vtkSphereAmbientOcclusion::Sweep : vtkSphereAmbientOcclusion::Reference;
+  return fits ? vtkSphereAmbientOcclusion::Sweep : vtkSphereAmbientOcclusion::Embree;
 }
 }
 
@@ -150,7 +150,13 @@ struct vtkSphereAmbientOcclusion::Internals
     vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks);
   static po::Occluders ReadOccluders(
     vtkSphereAmbientOcclusion* self, vtkDataObject* data, const po::SphereCloud& cloud);
+
+  /// Settings are changed to what is used in their place.
+  po::BakeResult BakeByMethod(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
+    const po::Occluders& occluders, po::BakeSettings& settings);
   po::BakeResult BakeBySweep(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
+    const po::Occluders& occluders, const po::BakeSettings& settings);
+  po::BakeResult BakeByEmbree(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
     const po::Occluders& occluders, const po::BakeSettings& settings);
 
   /// With a target error the samples that reach it are put into the settings.
@@ -200,11 +206,6 @@ po::BakeSettings vtkSphereAmbientOcclusion::Internals::ReadSettings(vtkSphereAmb
   requireRange("Seed", self->Seed, 0, VTK_INT_MAX);
   requireNotNegative("MaximumDistance", self->MaximumDistance, " (0 = unbounded)");
   requireRange<int>("Method", self->Method, Automatic, Reference);
-  if (self->Method == Embree)
-  {
-    throw std::invalid_argument(
-      "Method Embree is not in this version: choose Automatic, Sweep or Reference.");
-  }
   po::BakeSettings settings;
   settings.textureResolution = self->TextureResolution;
   settings.samplesPerTexel = self->SamplesPerTexel;
@@ -299,9 +300,7 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   this->LeftOut = cloud.rejected.total();
   const po::Occluders occluders = ReadOccluders(self, occluderData, cloud);
   this->Method = chooseMethod(self->Method, cloud, occluders, settings);
-  const po::BakeResult result = this->Method == Sweep
-    ? this->BakeBySweep(self, cloud, occluders, settings)
-    : this->BakeByReference(self, cloud, occluders, settings);
+  const po::BakeResult result = this->BakeByMethod(self, cloud, occluders, settings);
   if (result.aborted)
   {
     return;
@@ -318,6 +317,20 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   po::attachBake(blocks, cloud, result, this->Describe(self, settings, result.table, occluders));
 }
 
+po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByMethod(vtkSphereAmbientOcclusion* self,
+  const po::SphereCloud& cloud, const po::Occluders& occluders, po::BakeSettings& settings)
+{
+  switch (this->Method)
+  {
+    case Sweep:
+      return this->BakeBySweep(self, cloud, occluders, settings);
+    case Embree:
+      return this->BakeByEmbree(self, cloud, occluders, settings);
+    default:
+      return this->BakeByReference(self, cloud, occluders, settings);
+  }
+}
+
 po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeBySweep(vtkSphereAmbientOcclusion* self,
   const po::SphereCloud& cloud, const po::Occluders& occluders, const po::BakeSettings& settings)
 {
@@ -330,6 +343,21 @@ po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeBySweep(vtkSphereAmbien
     po::bakeOcclusion(po::BakeScene(cloud, occluders), settings, sweep, progress);
   this->Directions = sweep.report().directions;
   this->EstimatedError = sweep.report().estimatedError;
+  return result;
+}
+
+po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByEmbree(vtkSphereAmbientOcclusion* self,
+  const po::SphereCloud& cloud, const po::Occluders& occluders, const po::BakeSettings& settings)
+{
+  po::EmbreeOptions options;
+  options.targetError = self->TargetError;
+  const po::EmbreeEstimator embree(options);
+  requireMemory(sceneMemory(cloud, occluders, settings, embree), cloud.spheres.size());
+  po::Progress progress(reportTo(self));
+  po::BakeResult result =
+    po::bakeOcclusion(po::BakeScene(cloud, occluders), settings, embree, progress);
+  this->Directions = embree.report().directions;
+  this->EstimatedError = embree.report().estimatedError;
   return result;
 }
 

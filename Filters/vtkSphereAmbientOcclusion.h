@@ -20,8 +20,8 @@
  * darkens the particles but gets no textures and is not part of the output. Of a block that has
  * polygons or strips these occlude, from both sides; no part of a particle counts as inside a mesh.
  * The points of other blocks are spheres, with radii as on the first input. Sweep knows spheres
- * only: triangles are for the Method Reference, which Automatic then takes. Triangles with a corner
- * that is NaN or infinite are left out with one warning that counts them.
+ * only: triangles are for the Methods Embree, which Automatic then takes, and Reference. Triangles
+ * with a corner that is NaN or infinite are left out with one warning that counts them.
  *
  * The output is a shallow copy of the input plus
  * - point data `AmbientOcclusion`, float32[N]: mean visibility of the particle over the area that
@@ -99,7 +99,8 @@ public:
   /**
    * RMS error of linear visibility to reach, area-weighted over the set; 0 [default] = off. When
    * set, it takes the place of SamplesPerTexel: Sweep adds directions until the spread of subsets
-   * of them says that it is reached, Reference finds the number of rays by a pilot bake. At most 1.
+   * of them says that it is reached, Embree does so for every particle by itself, Reference finds
+   * the number of rays by a pilot bake. At most 1.
    */
   vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
@@ -107,9 +108,9 @@ public:
 
   enum MethodType
   {
-    Automatic = 0, ///< Sweep, or Reference if its memory is not there or a mesh occludes
+    Automatic = 0, ///< Sweep, or Embree if its memory is not there or a mesh occludes
     Sweep = 1,     ///< exact visibility of all particles along directions that they share, no rays
-    Embree = 2,    ///< not in this version
+    Embree = 2,    ///< along such directions too: near particles exactly, by few rays what is far
     Reference = 3  ///< jittered rays from every texel, one occlusion ray a sample
   };
 
@@ -211,8 +212,8 @@ public:
   vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
   vtkIdType GetNumberOfTextureBytes();     ///< size of the table
   const char* GetMethodUsed();             ///< what Automatic chose
-  int GetNumberOfDirections();             ///< of a sweep, 0 otherwise
-  int GetNumberOfThreads();                ///< threads that took part
+  int GetNumberOfDirections();  ///< of Sweep or Embree (the most of a particle), 0 otherwise
+  int GetNumberOfThreads();     ///< threads that took part
   int GetNumberOfSamplesUsed(); ///< differs from SamplesPerTexel with Reference and TargetError
   double GetEstimatedError();   ///< RMS error of linear visibility, 0 where none was found
   double GetBakeSeconds();      ///< wall time of the whole execution

@@ -15,11 +15,6 @@ Vec3d row(const Matrix4& a, std::size_t i)
   return { a[4 * i], a[4 * i + 1], a[4 * i + 2] };
 }
 
-Vec3d cross(Vec3d a, Vec3d b)
-{
-  return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
-}
-
 double homogeneous(const Matrix4& a, std::size_t i, Vec3d p)
 {
   return dot(row(a, i), p) + a[4 * i + 3];

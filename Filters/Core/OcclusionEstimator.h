@@ -45,7 +45,7 @@ struct BakeCounters
   std::uint64_t texturesStored = 0;   ///< rows of the table
   std::uint64_t spheresClosed = 0;    ///< sweep: visits spared by closed cells
   std::uint64_t spheresNeverSeen = 0; ///< sweep: visits spared as no direction had shown the sphere
-  std::uint64_t directionsBlack = 0;  ///< sweep: directions in which the background is black
+  std::uint64_t directionsBlack = 0;  ///< not looked along: the background is black there
   unsigned threads = 0;               ///< threads that took part
 
   void add(const BakeCounters& other);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlapFinder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -71,6 +72,39 @@ bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
   }
   return false; // the radius of the query did not change
 }
+
+struct NearQuery
+{
+  const Sphere* spheres;
+  unsigned id;
+  float reach;
+  std::size_t limit;
+  std::vector<Neighbour>* nearest; ///< a heap, the farthest on top
+};
+
+/// Keeps the nearest. Boxes reach farther than their spheres: the gap decides.
+bool visitNear(RTCPointQueryFunctionArguments* arguments)
+{
+  const auto* query = static_cast<const NearQuery*>(arguments->userPtr);
+  const Sphere& self = query->spheres[query->id];
+  const Sphere& other = query->spheres[arguments->primID];
+  const Neighbour found{ arguments->primID,
+    length(other.center() - self.center()) - self.radius - other.radius };
+  std::vector<Neighbour>& nearest = *query->nearest;
+  const bool full = nearest.size() == query->limit;
+  if (found.id == query->id || found.gap > query->reach || (full && !(found < nearest.front())))
+  {
+    return false;
+  }
+  if (full)
+  {
+    std::pop_heap(nearest.begin(), nearest.end());
+    nearest.pop_back();
+  }
+  nearest.push_back(found);
+  std::push_heap(nearest.begin(), nearest.end());
+  return false;
+}
 }
 
 OverlapFinder::OverlapFinder(const std::vector<Sphere>& spheres)
@@ -105,5 +139,22 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(scene_.get(), &point, &context, visitNeighbour, &query);
+}
+void OverlapFinder::findNear(
+  unsigned id, float reach, std::size_t limit, std::vector<Neighbour>& result) const
+{
+  result.clear();
+  const Sphere& self = (*spheres_)[id];
+  NearQuery query{ spheres_->data(), id, reach, limit, &result };
+  RTCPointQuery point;
+  point.x = self.x;
+  point.y = self.y;
+  point.z = self.z;
+  point.time = 0;
+  point.radius = (self.radius + reach) * (1 + 4 * std::numeric_limits<float>::epsilon());
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene_.get(), &point, &context, visitNear, &query);
+  std::sort_heap(result.begin(), result.end());
 }
 }

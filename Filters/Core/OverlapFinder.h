@@ -5,6 +5,7 @@
 #include "Embree.h"
 #include "Sphere.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace po
@@ -24,7 +25,20 @@ struct Overlaps
   std::vector<BuriedCap> caps; ///< one for each sphere that cuts the surface
 };
 
-/// Finds the spheres that overlap a sphere, exactly and for any mix of radii.
+/// A sphere near another one.
+struct Neighbour
+{
+  unsigned id;
+  float gap; ///< distance of the two surfaces, negative where they overlap
+
+  /// Nearest first; the number decides between equals.
+  [[nodiscard]] bool operator<(const Neighbour& other) const
+  {
+    return gap != other.gap ? gap < other.gap : id < other.id;
+  }
+};
+
+/// Finds the spheres that overlap a sphere, or come near it, for any mix of radii.
 ///
 /// Embree's point query looks the neighbours up in a hierarchy of boxes; it does not see sphere
 /// points (Embree 3 and 4), so the boxes are a user geometry. The spheres must outlive the finder.
@@ -37,6 +51,10 @@ public:
   /// A sphere that coincides with this one (same centre and radius) buries nothing: both surfaces
   /// are seen.
   void find(unsigned id, Overlaps& result) const;
+
+  /// The spheres whose surface comes within `reach` of that of sphere `id`, nearest first; of many
+  /// the `limit` nearest, so that a full result may be incomplete. `result` keeps its memory.
+  void findNear(unsigned id, float reach, std::size_t limit, std::vector<Neighbour>& result) const;
 
 private:
   const std::vector<Sphere>* spheres_;

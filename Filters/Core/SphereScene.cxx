@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereScene.h"
 
+#include "TriangleDistance.h"
+
 #include <algorithm>
 #include <new>
 #include <stdexcept>
@@ -15,6 +17,9 @@ struct OcclusionContext
   RayQueryContext embree; // first, so that the filter can cast back
   unsigned own;
 };
+
+/// So many rays are faster one by one than as a packet (measured).
+constexpr unsigned FewRays = 3;
 
 /// Rejects the ray's own sphere and every sphere whose centre does not lie ahead.
 void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
@@ -42,6 +47,34 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
+struct MeshQuery
+{
+  const Vec3f* vertices;
+  const std::array<unsigned, 3>* triangles;
+  Vec3f point;
+  float reach;
+  bool found;
+};
+
+/// Embree tells of triangles whose box comes near; large ones that lie aslant need a closer look.
+bool visitTriangle(RTCPointQueryFunctionArguments* arguments)
+{
+  auto* query = static_cast<MeshQuery*>(arguments->userPtr);
+  if (arguments->geomID != SphereScene::TriangleGeometry || query->found)
+  {
+    return false;
+  }
+  const std::array<unsigned, 3>& corners = query->triangles[arguments->primID];
+  query->found = triangleDistance(query->point, query->vertices[corners[0]],
+                   query->vertices[corners[1]], query->vertices[corners[2]]) <= query->reach;
+  if (!query->found)
+  {
+    return false;
+  }
+  arguments->query->radius = 0; // there is nothing more to look for
+  return true;
+}
+
 template <typename Element>
 void copyBuffer(
   RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<Element>& elements)
@@ -59,13 +92,14 @@ void copyBuffer(
 SphereScene::SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh)
   : device_(makeDevice())
   , spheres_(std::move(spheres))
+  , hasMesh_(!mesh.triangles.empty())
   , scene_(rtcNewScene(device_.get()))
 {
   if (!spheres_.empty())
   {
     addSpheres();
   }
-  if (!mesh.triangles.empty())
+  if (hasMesh_)
   {
     addTriangles(mesh);
   }
@@ -132,5 +166,70 @@ bool SphereScene::occluded(Vec3f origin, Vec3f direction, float distance, unsign
   ray.flags = 0;
   occluded1(scene_.get(), context.embree, ray);
   return ray.tfar < 0; // Embree marks an occluded ray with -infinity
+}
+unsigned SphereScene::occludedFrom(
+  const Vec3f* origins, unsigned count, Vec3f direction, float distance, unsigned own) const
+{
+  unsigned stopped = 0;
+  if (count <= FewRays)
+  {
+    for (unsigned i = 0; i < count; ++i)
+    {
+      stopped |= unsigned(occluded(origins[i], direction, distance, own)) << i;
+    }
+    return stopped;
+  }
+  OcclusionContext context;
+  initRayQueryContext(context.embree, true);
+  context.own = own;
+
+  alignas(64) int valid[PacketSize];
+  RTCRay16 rays;
+  for (unsigned i = 0; i < PacketSize; ++i)
+  {
+    const Vec3f origin = origins[i < count ? i : 0];
+    valid[i] = i < count ? -1 : 0;
+    rays.org_x[i] = origin.x;
+    rays.org_y[i] = origin.y;
+    rays.org_z[i] = origin.z;
+    rays.tnear[i] = 0;
+    rays.dir_x[i] = direction.x;
+    rays.dir_y[i] = direction.y;
+    rays.dir_z[i] = direction.z;
+    rays.time[i] = 0;
+    rays.tfar[i] = distance;
+    rays.mask[i] = 0xFFFFFFFFu;
+    rays.id[i] = i;
+    rays.flags[i] = 0;
+  }
+  occluded16(valid, scene_.get(), context.embree, rays);
+  for (unsigned i = 0; i < count; ++i)
+  {
+    stopped |= unsigned(rays.tfar[i] < 0) << i;
+  }
+  return stopped;
+}
+bool SphereScene::isMeshWithin(Vec3f point, float reach) const
+{
+  if (!hasMesh_)
+  {
+    return false;
+  }
+  const RTCGeometry geometry = rtcGetGeometry(scene_.get(), TriangleGeometry);
+  MeshQuery mesh{ static_cast<const Vec3f*>(
+                    rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)),
+    static_cast<const std::array<unsigned, 3>*>(
+      rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0)),
+    point, reach, false };
+  RTCPointQuery query;
+  query.x = point.x;
+  query.y = point.y;
+  query.z = point.z;
+  query.time = 0;
+  query.radius = reach;
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene_.get(), &query, &context, visitTriangle, &mesh);
+  return mesh.found;
 }
 }

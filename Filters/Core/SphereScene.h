@@ -49,12 +49,24 @@ public:
   /// @param own sphere the ray starts on, or None
   [[nodiscard]] bool occluded(Vec3f origin, Vec3f direction, float distance, unsigned own) const;
 
+  /// Rays that occludedFrom() traces at once.
+  static constexpr unsigned PacketSize = 16;
+
+  /// The same for `count` parallel rays, 1 to PacketSize, from neighbouring points of one sphere.
+  /// @return bit i tells of the ray from origins[i]
+  [[nodiscard]] unsigned occludedFrom(
+    const Vec3f* origins, unsigned count, Vec3f direction, float distance, unsigned own) const;
+
+  /// Does any triangle come within `reach` of a point?
+  [[nodiscard]] bool isMeshWithin(Vec3f point, float reach) const;
+
 private:
   void addSpheres();
   void addTriangles(const OccluderMesh& mesh);
 
   DeviceHandle device_;
   std::vector<Sphere> spheres_;
+  bool hasMesh_;
   SceneHandle scene_;
 };
 }

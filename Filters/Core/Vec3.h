@@ -53,6 +53,12 @@ template <typename T>
 }
 
 template <typename T>
+[[nodiscard]] constexpr Vec3<T> cross(Vec3<T> a, Vec3<T> b)
+{
+  return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+template <typename T>
 [[nodiscard]] T length(Vec3<T> a)
 {
   return std::sqrt(dot(a, a));

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// CPU seconds of the sweep at the error that 49 jittered rays a texel leave (method Reference).
+/// CPU seconds of the sweep, or of the method Embree, at the error that 49 jittered rays a texel
+/// leave (method Reference).
 ///
-/// Usage: BenchmarkSweep [--count N] [--judged N] [--distance D] [--samples N] [family or file]...
+/// Usage: BenchmarkSweep [--method sweep|embree] [--count N] [--judged N] [--distance D] [--samples
+/// N] [family or file]...
 ///
 /// A family is one of SyntheticSpheres; a file holds text lines "x y z radius". Errors are taken
 /// over a few particles against Reference with many more rays and another seed: area-weighted RMS
 /// of linear visibility over the outside part of the texels. The Reference's time is measured on
-/// the same particles and scaled to all. Seconds are those of the process: all threads together.
+/// the same particles and scaled to all, as is that of Embree, on up to 2,000 particles. Seconds
+/// are those of the process: all threads together.
 
+#include "EmbreeEstimator.h"
 #include "OcclusionBaker.h"
 #include "Random.h"
 #include "ReferenceEstimator.h"
@@ -15,6 +19,7 @@
 #include "SyntheticSpheres.h"
 #include "TexelMap.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -33,6 +38,7 @@ struct Options
   std::size_t judged = 48;
   double distance = 0; ///< in mean radii
   int samples = 49;
+  bool embree = false; ///< in place of the sweep
   std::vector<std::string> scenes;
 };
 
@@ -129,6 +135,47 @@ Error errorOf(const Textures& found, const Textures& judge, int resolution)
   return { std::sqrt(error.rms / area), error.bias / area };
 }
 
+struct Run
+{
+  Textures textures; ///< of the judged particles; the time is that of all
+  double estimatedError;
+};
+
+Run runSweep(int directions, const po::BakeScene& scene, const std::vector<unsigned>& all,
+  const std::vector<unsigned>& judged, const po::BakeSettings& settings)
+{
+  const po::SweepEstimator sweep(po::SweepOptions{ directions, 0 });
+  Textures found = estimate(sweep, scene, all, judged, settings);
+  return { std::move(found), sweep.report().estimatedError };
+}
+
+/// Bakes a part of the particles, the judged ones among them, and scales the time to all.
+Run runEmbree(int directions, const po::BakeScene& scene, const std::vector<unsigned>& judged,
+  const po::BakeSettings& settings)
+{
+  constexpr std::size_t most = 2000;
+  const std::size_t particles = scene.receivers();
+  const std::size_t step = std::max<std::size_t>(particles / most, 1);
+  std::vector<unsigned> list;
+  std::vector<unsigned> kept; // places in the list
+  for (unsigned id = 0; id < particles; ++id)
+  {
+    const bool isJudged = std::binary_search(judged.begin(), judged.end(), id);
+    if (isJudged)
+    {
+      kept.push_back(static_cast<unsigned>(list.size()));
+    }
+    if (isJudged || id % step == 0)
+    {
+      list.push_back(id);
+    }
+  }
+  const po::EmbreeEstimator embree(po::EmbreeOptions{ directions, 0 });
+  Textures found = estimate(embree, scene, list, kept, settings);
+  found.seconds *= static_cast<double>(particles) / static_cast<double>(list.size());
+  return { std::move(found), embree.report().estimatedError };
+}
+
 /// Seconds at an error, between two measurements, on a log-log line.
 double secondsAt(double error, double error0, double seconds0, double error1, double seconds1)
 {
@@ -171,18 +218,19 @@ void benchmark(const std::string& name, const Options& options)
   double lastSeconds = 0;
   for (const int directions : { 64, 128, 192, 256, 384, 512, 768, 1024 })
   {
-    const po::SweepEstimator sweep(po::SweepOptions{ directions, 0 });
-    const Textures found = estimate(sweep, scene, all, judged, settings);
+    const Run run = options.embree ? runEmbree(directions, scene, judged, settings)
+                                   : runSweep(directions, scene, all, judged, settings);
+    const Textures& found = run.textures;
     const Error error = errorOf(found, judge, settings.textureResolution);
-    std::printf("| %s | Sweep %d | %.2f | %.4f | %+.4f | %.4f | %.0f |\n", name.c_str(), directions,
-      found.seconds, error.rms, error.bias, sweep.report().estimatedError,
-      baselineSeconds / found.seconds);
+    std::printf("| %s | %s %d | %.2f | %.4f | %+.4f | %.4f | %.1f |\n", name.c_str(),
+      options.embree ? "Embree" : "Sweep", directions, found.seconds, error.rms, error.bias,
+      run.estimatedError, baselineSeconds / found.seconds);
     if (error.rms < target.rms)
     {
       const double seconds = lastError > 0
         ? secondsAt(target.rms, lastError, lastSeconds, error.rms, found.seconds)
         : found.seconds;
-      std::printf("| %s | equal error | %.2f | %.4f | | | **%.0f** |\n", name.c_str(), seconds,
+      std::printf("| %s | equal error | %.2f | %.4f | | | **%.1f** |\n", name.c_str(), seconds,
         target.rms, baselineSeconds / seconds);
       return;
     }
@@ -214,6 +262,10 @@ Options readOptions(int argc, char** argv)
     else if (word == "--samples" && hasValue)
     {
       options.samples = std::stoi(argv[++i]);
+    }
+    else if (word == "--method" && hasValue)
+    {
+      options.embree = std::string(argv[++i]) == "embree";
     }
     else
     {

@@ -119,8 +119,8 @@ TEST(OccluderInput, TheGroundTakesHalfTheSky)
   const std::vector<double> texture = textureOf(baked, 0);
   EXPECT_GT(texture.front(), 0.9); // towards +z
   EXPECT_LT(texture.back(), 0.1);
-  EXPECT_STREQ(filter->GetMethodUsed(), "Reference"); // of Automatic: Sweep knows no triangles
-  EXPECT_EQ(parameter(baked->GetFieldData(), "method"), "Reference");
+  EXPECT_STREQ(filter->GetMethodUsed(), "Embree"); // of Automatic: Sweep knows no triangles
+  EXPECT_EQ(parameter(baked->GetFieldData(), "method"), "Embree");
   EXPECT_EQ(parameter(baked->GetFieldData(), "occluderTriangles"), "2");
   EXPECT_EQ(parameter(baked->GetFieldData(), "occluderSpheres"), "0");
   EXPECT_EQ(baked->GetNumberOfPoints(), 1);
@@ -187,12 +187,12 @@ TEST(OccluderInput, SpheresOccludeAsOnTheFirstInput)
 {
   // The occluders lie inside the extent and have the mean radius, so that the local coordinates are
   // the same; they come last, so that the ids, and with them the random numbers, are too. Reference
-  // must then give the same bits, Sweep the same up to its shortcuts (bias below 0.002).
+  // and Embree must then give the same bits, Sweep the same up to its shortcuts (bias below 0.002).
   const auto all = spheresAt({ { 0, 0, 0 }, { 2, 2, 2 }, { 0, 2, 0 }, { 1, 1, 1 }, { 1.5, 1, 1 } });
   const auto particles = spheresAt({ { 0, 0, 0 }, { 2, 2, 2 }, { 0, 2, 0 } });
   const auto occluders = spheresAt({ { 1, 1, 1 }, { 1.5, 1, 1 } });
-  for (const int method :
-    { vtkSphereAmbientOcclusion::Reference, vtkSphereAmbientOcclusion::Sweep })
+  for (const int method : { vtkSphereAmbientOcclusion::Reference, vtkSphereAmbientOcclusion::Embree,
+         vtkSphereAmbientOcclusion::Sweep })
   {
     const auto whole = filterFor(all, nullptr);
     const auto part = filterFor(particles, occluders);
@@ -203,7 +203,7 @@ TEST(OccluderInput, SpheresOccludeAsOnTheFirstInput)
     EXPECT_EQ(part->GetNumberOfParticles(), 3);
     EXPECT_EQ(parameter(baked->GetFieldData(), "occluderSpheres"), "2");
     EXPECT_EQ(parameter(baked->GetFieldData(), "occluderTriangles"), "0");
-    const double tolerance = method == vtkSphereAmbientOcclusion::Reference ? 0 : 0.002;
+    const double tolerance = method == vtkSphereAmbientOcclusion::Sweep ? 0.002 : 0;
     for (vtkIdType i = 0; i < 3; ++i)
     {
       EXPECT_NEAR(meanOf(baked, i), meanOf(bakedBy(whole), i), tolerance) << i;
@@ -336,7 +336,7 @@ TEST(OccluderInput, ErrorsNameThePort)
   const auto negative = spheresAt({ { 0, 0, 9 } });
   radiiOf(negative)->SetValue(0, -1);
   expectError(negative, "No particle is usable", nothing);
-  expectError(ground(), "choose the Method Automatic or Reference",
+  expectError(ground(), "choose the Method Automatic or Embree",
     [](vtkSphereAmbientOcclusion* f) { f->SetMethod(vtkSphereAmbientOcclusion::Sweep); });
 }
 }

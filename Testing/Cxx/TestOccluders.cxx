@@ -212,4 +212,60 @@ TEST(Occluders, SpheresArePutIntoTheCoordinatesOfTheParticles)
   EXPECT_FALSE(po::SphereCloud::inRange({ 0, 1e19, 0 }));
   EXPECT_FALSE(po::SphereCloud::inRange({ 0, 0, std::numeric_limits<double>::quiet_NaN() }));
 }
+
+TEST(Occluders, PacketsOfRaysSayWhatSingleRaysSay)
+{
+  const po::SphereCloud cloud = cloudOf(mixedScene());
+  po::Random random(3, 0, 0);
+  const po::BakeScene scene(cloud, { {}, square(4, -1, true) });
+  unsigned stopped = 0;
+  for (unsigned id = 0; id < 50; ++id)
+  {
+    const po::Sphere& sphere = scene.rays.spheres()[id];
+    const po::Vec3d direction = po::textureDirection({ random.uniform(), random.uniform() });
+    const unsigned count = 1 + id % po::SphereScene::PacketSize;
+    const float distance = id % 2 == 0 ? 1.0f : std::numeric_limits<float>::infinity();
+    std::vector<po::Vec3f> origins;
+    while (origins.size() < count)
+    {
+      const po::Vec3d normal = po::textureDirection({ random.uniform(), random.uniform() });
+      if (dot(normal, direction) > 0)
+      {
+        origins.push_back(sphere.center() + sphere.radius * normal.as<float>());
+      }
+    }
+    const unsigned packet =
+      scene.rays.occludedFrom(origins.data(), count, direction.as<float>(), distance, id);
+    for (unsigned i = 0; i < count; ++i)
+    {
+      const bool single = scene.rays.occluded(origins[i], direction.as<float>(), distance, id);
+      EXPECT_EQ((packet >> i & 1) != 0, single) << id << " " << i;
+      stopped += single;
+    }
+    EXPECT_EQ(packet >> count, 0u);
+  }
+  EXPECT_GT(stopped, 50u);
+}
+
+TEST(Occluders, TheDistanceOfTrianglesIsThatOfTheirNearestPoint)
+{
+  const po::SphereCloud cloud = cloudOf({ { 0, 0, 0, 1 } });
+  const po::SphereScene scene(cloud.spheres, square(2, -3, true));
+  EXPECT_FALSE(scene.isMeshWithin({ 0, 0, 0 }, 2.99f));
+  EXPECT_TRUE(scene.isMeshWithin({ 0, 0, 0 }, 3.01f));
+  EXPECT_TRUE(scene.isMeshWithin({ 1.5f, -1, -6 }, 3.01f)); // from the other side
+  EXPECT_FALSE(scene.isMeshWithin({ 6, 0, 0 }, 4.99f));     // an edge: 4 across, 3 up
+  EXPECT_TRUE(scene.isMeshWithin({ 6, 0, 0 }, 5.01f));
+  EXPECT_FALSE(scene.isMeshWithin({ 5, 6, -3 }, 4.99f)); // a corner: 3 and 4 across
+  EXPECT_TRUE(scene.isMeshWithin({ 5, 6, -3 }, 5.01f));
+  EXPECT_FALSE(po::SphereScene(cloud.spheres).isMeshWithin({ 0, 0, 0 }, 100));
+
+  // A slope's box holds the point, the slope itself does not come near.
+  po::OccluderMesh slope;
+  slope.vertices = { { 0, 0, 0 }, { 10, 0, 10 }, { 10, 1, 10 } };
+  slope.triangles = { { 0, 1, 2 } };
+  const po::SphereScene aslant(cloud.spheres, slope);
+  EXPECT_FALSE(aslant.isMeshWithin({ 8, 0.5f, 2 }, 4));
+  EXPECT_TRUE(aslant.isMeshWithin({ 8, 0.5f, 2 }, 4.5f));
+}
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace
@@ -80,5 +81,43 @@ TEST(OverlapFinder, FindsWhatBruteForceFindsForRadiiOfOneToTenThousand)
     cuts += expectedCaps;
   }
   EXPECT_GT(cuts, 1000u); // the scene does test something
+}
+
+TEST(OverlapFinder, FindsTheNearestThatComeWithinReach)
+{
+  po::Random random(21, 0, 0);
+  std::vector<po::Sphere> spheres;
+  for (int i = 0; i < 500; ++i)
+  {
+    const auto coordinate = [&] { return static_cast<float>(20 * random.uniform()); };
+    const double radius = std::pow(10.0, -2 + 2.5 * random.uniform());
+    spheres.push_back({ coordinate(), coordinate(), coordinate(), static_cast<float>(radius) });
+  }
+  const po::OverlapFinder finder(spheres);
+  for (unsigned id = 0; id < 50; ++id)
+  {
+    const float reach = 2 * spheres[id].radius;
+    std::vector<po::Neighbour> expected;
+    for (unsigned other = 0; other < spheres.size(); ++other)
+    {
+      const float gap = po::length(spheres[other].center() - spheres[id].center()) -
+        spheres[id].radius - spheres[other].radius;
+      if (other != id && gap <= reach)
+      {
+        expected.push_back({ other, gap });
+      }
+    }
+    std::sort(expected.begin(), expected.end());
+    for (const std::size_t limit : { std::size_t(10), spheres.size() })
+    {
+      std::vector<po::Neighbour> found;
+      finder.findNear(id, reach, limit, found);
+      ASSERT_EQ(found.size(), std::min(limit, expected.size())) << id;
+      for (std::size_t i = 0; i < found.size(); ++i)
+      {
+        EXPECT_EQ(found[i].id, expected[i].id) << id;
+      }
+    }
+  }
 }
 }

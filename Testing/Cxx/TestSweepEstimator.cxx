@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BruteForceVisibility.h"
+#include "EstimateDifference.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
@@ -17,41 +18,6 @@
 
 namespace
 {
-struct Difference
-{
-  double rms = 0;  ///< weighted by visible area
-  double bias = 0; ///< of the first, weighted by visible area
-};
-
-Difference compare(const Estimates& ours, const Estimates& judge, int resolution)
-{
-  Difference difference;
-  double area = 0;
-  const auto columns = static_cast<std::size_t>(resolution);
-  for (std::size_t i = 0; i < judge.values.size(); ++i)
-  {
-    const double weight =
-      po::texelArea(resolution, static_cast<int>(i / columns % columns)) * judge.shares[i];
-    const double error = static_cast<double>(ours.values[i]) - judge.values[i];
-    difference.rms += weight * error * error;
-    difference.bias += weight * error;
-    area += weight;
-  }
-  return { std::sqrt(difference.rms / area), difference.bias / area };
-}
-
-std::vector<po::Sphere> familySpheres(po::SyntheticFamily family, std::size_t count)
-{
-  const po::SyntheticSpheres made = po::makeSyntheticSpheres(family, count, 1);
-  std::vector<po::Sphere> spheres;
-  for (std::size_t i = 0; i < made.radii.size(); ++i)
-  {
-    const auto& c = made.centers[i];
-    spheres.push_back({ c[0], c[1], c[2], made.radii[i] });
-  }
-  return spheres;
-}
-
 po::SweepEstimator sweepOf(int directions)
 {
   po::SweepOptions options;
@@ -130,7 +96,7 @@ TEST(SweepEstimator, AgreesWithReferenceInAllFamilies)
          po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
   {
     SCOPED_TRACE(static_cast<int>(family));
-    expectLikeReference(familySpheres(family, 150), floatSettings(4, 49), 0.012);
+    expectLikeReference(syntheticScene(family, 150), floatSettings(4, 49), 0.012);
   }
 }
 
@@ -166,15 +132,7 @@ TEST(SweepEstimator, AgreesWithReferenceUnderAnyBackground)
 
 TEST(SweepEstimator, AgreesWithReferenceForRadiiOfOneToTenThousand)
 {
-  po::Random random(17, 0, 0);
-  std::vector<po::Sphere> spheres{ { 0, 0, -1000, 1000 } };
-  for (int i = 0; i < 80; ++i)
-  {
-    const auto coordinate = [&] { return static_cast<float>(10 * random.uniform() - 5); };
-    const auto radius = static_cast<float>(std::pow(10.0, -1 + 1.5 * random.uniform()));
-    spheres.push_back({ coordinate(), coordinate(), coordinate() + 4, radius });
-  }
-  expectLikeReference(spheres, floatSettings(6, 49), 0.012);
+  expectLikeReference(wideScene(), floatSettings(6, 49), 0.012);
 }
 
 TEST(SweepEstimator, GivesTheSameBitsForAnyNumberOfThreads)
@@ -249,7 +207,7 @@ TEST(SweepEstimator, KeepsThePromiseOfATargetError)
   for (const po::SyntheticFamily family : { po::SyntheticFamily::Pack, po::SyntheticFamily::Overlap,
          po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
   {
-    scenes.push_back(familySpheres(family, 200));
+    scenes.push_back(syntheticScene(family, 200));
   }
   int failures = 0;
   for (const std::vector<po::Sphere>& spheres : scenes)
@@ -285,7 +243,7 @@ TEST(SweepEstimator, HasNoBias)
          po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
   {
     SCOPED_TRACE(static_cast<int>(family));
-    const po::SphereCloud cloud = cloudOf(familySpheres(family, 200));
+    const po::SphereCloud cloud = cloudOf(syntheticScene(family, 200));
     const po::BakeScene scene(cloud);
     po::BakeSettings settings = floatSettings(6, 6000);
     settings.seed = 77;

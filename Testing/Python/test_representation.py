@@ -201,7 +201,7 @@ self.GetPolyDataOutput().GetPointData().AddArray(radii)
         ground = simple.Plane(Origin=[-9, -9, -0.6], Point1=[12, -9, -0.6], Point2=[-9, 12, -0.6])
         baked.Occluders = ground
         self.assertLess(mean(), 0.8 * alone)
-        self.assertEqual(method(), "Reference")
+        self.assertEqual(method(), "Embree")
         baked.Occluders = simple.GroupDatasets(Input=[ground, simple.Sphere(Center=[1.5, 1.5, 9], Radius=5)])
         self.assertLess(mean(), 0.7 * alone)
 
