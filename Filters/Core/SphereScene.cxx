@@ -4,6 +4,7 @@
 #include "TriangleDistance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -89,10 +90,30 @@ void copyBuffer(
 }
 }
 
+namespace
+{
+/// A distance beyond the rounding of a ray's start, and within a thousandth of the smallest radius;
+/// 0 if there is none.
+float startBeyondRounding(const std::vector<Sphere>& spheres)
+{
+  float extent = 0;
+  float smallest = std::numeric_limits<float>::max();
+  for (const Sphere& s : spheres)
+  {
+    extent = std::max(
+      { extent, std::abs(s.x) + s.radius, std::abs(s.y) + s.radius, std::abs(s.z) + s.radius });
+    smallest = std::min(smallest, s.radius);
+  }
+  const float start = 8 * std::numeric_limits<float>::epsilon() * extent;
+  return start < 1e-3f * smallest ? start : 0.0f;
+}
+}
+
 SphereScene::SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh)
   : device_(makeDevice())
   , spheres_(std::move(spheres))
   , hasMesh_(!mesh.triangles.empty())
+  , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(spheres_))
   , scene_(rtcNewScene(device_.get()))
 {
   if (!spheres_.empty())
@@ -155,7 +176,7 @@ bool SphereScene::occluded(Vec3f origin, Vec3f direction, float distance, unsign
   ray.org_x = origin.x;
   ray.org_y = origin.y;
   ray.org_z = origin.z;
-  ray.tnear = 0;
+  ray.tnear = own == None ? 0 : rayStart_;
   ray.dir_x = direction.x;
   ray.dir_y = direction.y;
   ray.dir_z = direction.z;
@@ -167,6 +188,7 @@ bool SphereScene::occluded(Vec3f origin, Vec3f direction, float distance, unsign
   occluded1(scene_.get(), context.embree, ray);
   return ray.tfar < 0; // Embree marks an occluded ray with -infinity
 }
+
 unsigned SphereScene::occludedFrom(
   const Vec3f* origins, unsigned count, Vec3f direction, float distance, unsigned own) const
 {
@@ -192,7 +214,7 @@ unsigned SphereScene::occludedFrom(
     rays.org_x[i] = origin.x;
     rays.org_y[i] = origin.y;
     rays.org_z[i] = origin.z;
-    rays.tnear[i] = 0;
+    rays.tnear[i] = own == None ? 0 : rayStart_;
     rays.dir_x[i] = direction.x;
     rays.dir_y[i] = direction.y;
     rays.dir_z[i] = direction.z;

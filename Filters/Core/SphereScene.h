@@ -19,6 +19,11 @@ namespace po
 /// touches. The rule asks that the origin lies outside all spheres; samples inside another sphere
 /// must be sorted out before (see OverlapFinder).
 ///
+/// Only for speed do rays from a sphere's surface begin a little off it, beyond rounding, where
+/// that is within a thousandth of the smallest radius: Embree then need not report their own sphere
+/// to the filter. What lies between is met all the same, from its far side, but for chords shorter
+/// than that.
+///
 /// Triangles stop occlusion rays from both sides. They need no such rule: a ray starts on a sphere,
 /// so on a triangle only by chance, and a triangle that cuts through the sphere is met by the rays
 /// that leave towards it, from whichever side they start.
@@ -67,6 +72,7 @@ private:
   DeviceHandle device_;
   std::vector<Sphere> spheres_;
   bool hasMesh_;
+  float rayStart_; ///< where rays from a sphere's surface begin
   SceneHandle scene_;
 };
 }

@@ -99,7 +99,7 @@ TEST(SweepTexels, EveryTexelHasOneSlotAndPointsInsideIt)
         continue;
       }
       EXPECT_TRUE(seen.insert(texel).second);
-      for (const std::size_t p : { std::size_t(0), std::size_t(17), std::size_t(63) })
+      for (const std::size_t p : { std::size_t(0), std::size_t(17), po::TexelPatterns::Count - 1 })
       {
         const po::TextureCoordinate at =
           po::textureCoordinate(patterns.normal(p, slot).as<double>());
