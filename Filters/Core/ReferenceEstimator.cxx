@@ -32,6 +32,8 @@ struct Plan
 struct Workspace
 {
   ReferenceRays::Workspace rays;
+  std::vector<TexelRay> row;     ///< rays of the row of texels at hand
+  std::vector<std::size_t> ends; ///< by column
   BakeCounters counters;
 };
 
@@ -49,18 +51,13 @@ Plan makePlan(const BakeScene& scene, const BakeSettings& settings)
   return plan;
 }
 
-struct TexelEstimate
-{
-  float value = 0;
-  float outsideShare = 0;
-};
-
 /// Adds up the background over the rays that nothing stops.
-double gatherLight(const Plan& plan, unsigned id, const std::vector<TexelRay>& rays)
+double gatherLight(const Plan& plan, unsigned id, const TexelRay* first, const TexelRay* last)
 {
   double light = 0;
-  for (const TexelRay& ray : rays)
+  for (; first != last; ++first)
   {
+    const TexelRay& ray = *first;
     if (!plan.scene.rays.occluded(ray.origin, ray.direction.as<float>(), plan.rayLength, id))
     {
       light += plan.uniform ? 1 : luminance(plan.settings.background, ray.direction);
@@ -69,20 +66,36 @@ double gatherLight(const Plan& plan, unsigned id, const std::vector<TexelRay>& r
   return light;
 }
 
-TexelEstimate estimateTexel(const Plan& plan, unsigned id, int row, int column, Workspace& work)
+/// Makes the rays of a row of texels: those of column c end at work.ends[c].
+void makeRow(const Plan& plan, unsigned id, int row, float* shares, Workspace& work)
 {
-  const int samples = plan.rays.makeRays(id, row, column, work.rays);
-  const std::size_t outside = work.rays.rays.size();
-  work.counters.texelsInside += samples == 0;
-  work.counters.rays += outside;
-  work.counters.samplesInside += static_cast<std::uint64_t>(samples) - outside;
-  if (outside == 0)
+  work.row.clear();
+  work.ends.clear();
+  for (int column = 0; column < plan.resolution; ++column)
   {
-    return {};
+    const int samples = plan.rays.makeRays(id, row, column, work.rays);
+    const std::size_t outside = work.rays.rays.size();
+    work.row.insert(work.row.end(), work.rays.rays.begin(), work.rays.rays.end());
+    work.ends.push_back(work.row.size());
+    work.counters.texelsInside += samples == 0;
+    work.counters.rays += outside;
+    work.counters.samplesInside += static_cast<std::uint64_t>(samples) - outside;
+    shares[column] =
+      outside == 0 ? 0.0f : static_cast<float>(outside) / static_cast<float>(samples);
   }
-  const double light = gatherLight(plan, id, work.rays.rays);
-  return { static_cast<float>(light / static_cast<double>(outside)),
-    static_cast<float>(outside) / static_cast<float>(samples) };
+}
+
+void traceRow(const Plan& plan, unsigned id, float* values, Workspace& work)
+{
+  std::size_t begin = 0;
+  for (std::size_t column = 0; column < work.ends.size(); ++column)
+  {
+    const std::size_t end = work.ends[column];
+    const double light = gatherLight(plan, id, work.row.data() + begin, work.row.data() + end);
+    values[column] =
+      begin == end ? 0.0f : static_cast<float>(light / static_cast<double>(end - begin));
+    begin = end;
+  }
 }
 
 /// Fills the T * T values and shares of one particle, which are zero on entry.
@@ -99,16 +112,13 @@ void estimateParticle(
   }
   for (int row = 0; row < plan.resolution; ++row)
   {
-    for (int column = 0; column < plan.resolution; ++column)
+    // Row by row: rays made and traced texel by texel would push each other out of the caches.
+    const std::size_t first = texelIndex(plan.resolution, row, 0);
+    makeRow(plan, id, row, shares + first, work);
+    traceRow(plan, id, values + first, work);
+    if (!progress.advance(static_cast<std::uint64_t>(plan.resolution)))
     {
-      const std::size_t texel = texelIndex(plan.resolution, row, column);
-      const TexelEstimate estimate = estimateTexel(plan, id, row, column, work);
-      values[texel] = estimate.value;
-      shares[texel] = estimate.outsideShare;
-      if (!progress.advance(1))
-      {
-        return;
-      }
+      return;
     }
   }
 }
