@@ -450,7 +450,8 @@ po::Judge judgeFor(const Options& options, const po::SphereCloud& cloud, int res
   if (judge.checksum != po::checksum(cloud) || judge.spheres != cloud.spheres.size() ||
     judge.resolution != resolution || judge.scene != shortName(options))
   {
-    throw std::runtime_error(file + " was made from other spheres or for other textures");
+    throw std::runtime_error(
+      file + " was made from other spheres, for other textures or under another background");
   }
   return judge;
 }
