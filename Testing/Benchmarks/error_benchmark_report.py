@@ -183,8 +183,13 @@ def rows_table(rows):
                  [[row.get(name) for name in names] for row in rows])
 
 
+def scene_and_light(row):
+    light = row.get("background", "uniform")
+    return row["scene"] if light == "uniform" else f"{row['scene']} ({light})"
+
+
 def noise_line(rows):
-    noises = {row["scene"]: row["judge_noise"] for row in rows if "judge_noise" in row}
+    noises = {scene_and_light(row): row["judge_noise"] for row in rows if "judge_noise" in row}
     if not noises:
         return ""
     listed = ", ".join(f"{scene} {number(noise, 2)}" for scene, noise in noises.items())
