@@ -66,7 +66,7 @@ def bars(axis, groups, names, value_of, label="{:.3g}"):
     axis.grid(True, axis="y", alpha=0.25)
     axis.set_axisbelow(True)
     if len(names) > 1:
-        axis.legend()
+        axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0)
 
 
 def first_of(rows, name):

@@ -200,10 +200,10 @@ def scaled_line(rows):
     scaled = [row for row in rows if row["measured_particles"] < row["particles"]]
     if not scaled:
         return ""
-    methods = ", ".join(unique(row["method"] for row in scaled))
+    methods = " and ".join(unique(row["method"] for row in scaled))
     return (f"\nThe seconds of {methods} were measured on "
             f"{min(row['measured_particles'] for row in scaled)} particles or more, drawn at "
-            "random, and are scaled to all; its memory is that of the measured ones.\n")
+            "random, and are scaled to all; their memory is that of the measured ones.\n")
 
 
 def error_extra(rows):
