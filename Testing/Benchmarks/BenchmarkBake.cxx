@@ -276,10 +276,8 @@ private:
 void add(const std::string& what, const std::string& family,
   void (*measure)(benchmark::State&, const std::string&))
 {
-  constexpr int Repetitions = 11;
   benchmark::RegisterBenchmark((what + "/" + family).c_str(), measure, family)
     ->Unit(benchmark::kMillisecond)
-    ->Repetitions(Repetitions)
     ->ReportAggregatesOnly();
 }
 }
@@ -294,8 +292,10 @@ int main(int argc, char** argv)
     add("Bare", family, bare);
   }
   std::vector<char*> arguments(argv, argv + argc);
+  // Before those of the caller, who may so ask for others.
   std::string shuffled = "--benchmark_enable_random_interleaving=true";
-  arguments.insert(arguments.begin() + 1, shuffled.data());
+  std::string repetitions = "--benchmark_repetitions=11";
+  arguments.insert(arguments.begin() + 1, { shuffled.data(), repetitions.data() });
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data()))

@@ -3,23 +3,27 @@
 /// method at one level of quality. run_error_benchmark.py calls it and gathers what it prints.
 ///
 ///   BenchmarkError measure --scene NAME --method NAME --level N [--count N] [--resolution T]
-///     [--judge FILE] [--measured N] [--threads N] [--target NAME] [--bake 1] [--values FILE]
+///     [--background NAME] [--judge FILE] [--measured N] [--threads N] [--target NAME] [--bake 1]
+///     [--without SKIP] [--values FILE] [--compare FILE]
 ///   BenchmarkError judge --scene NAME --output FILE [--count N] [--resolution T] [--samples N]
-///     [--judged N]
+///     [--background NAME] [--judged N]
 ///   BenchmarkError targets
 ///
 /// `measure` prints one line of JSON. A method whose time grows with the particles that are asked
 /// for is measured on --measured of them, and its time scaled to all. --bake goes on to the table
 /// of stored textures, for methods that do all particles; --target allows only one set of vector
-/// instructions; --values writes all values as raw floats. `judge` writes the independent values
-/// by which errors are found. `targets` lists sets of vector instructions. The scenes are told in
-/// BenchmarkScenes.h.
+/// instructions; --without switches off one of the SweepSkips; --values writes all values as raw
+/// floats, and --compare tells the RMS difference from such a file. `judge` writes the independent
+/// values by which errors are found. `targets` lists sets of vector instructions. The scenes and
+/// backgrounds are told in BenchmarkScenes.h.
 
 #include "BenchmarkJudge.h"
 #include "BenchmarkScenes.h"
+#include "EmbreeEstimator.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
+#include "TexelMap.h"
 
 #include <hwy/targets.h>
 #include <tbb/global_control.h>
@@ -31,6 +35,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -104,19 +109,92 @@ struct Method
   bool allAtOnce; ///< the time does not depend on how many particles are asked for
 };
 
-/// The one place to add another estimator (and its levels to METHODS in run_error_benchmark.py).
-Method makeMethod(const std::string& name, int level)
+/// All that a sweep may leave out, but for what is named.
+po::SweepSkips skipsWithout(const std::string& name)
 {
+  static const std::map<std::string, bool po::SweepSkips::*> flags{
+    { "closedCells", &po::SweepSkips::closedCells },
+    { "neverSeen", &po::SweepSkips::neverSeen },
+    { "offsetMasks", &po::SweepSkips::offsetMasks },
+    { "blackSky", &po::SweepSkips::blackSky },
+  };
+  po::SweepSkips skips;
+  if (!name.empty())
+  {
+    const auto flag = flags.find(name);
+    if (flag == flags.end())
+    {
+      throw std::runtime_error("There is no skip '" + name + "'");
+    }
+    skips.*flag->second = false;
+  }
+  return skips;
+}
+
+/// The one place to add another estimator (and its levels to METHODS in run_error_benchmark.py).
+Method makeMethod(const std::string& name, int level, const std::string& without)
+{
+  if (name == "Sweep")
+  {
+    const po::SweepOptions options{ level, 0, skipsWithout(without) };
+    return { std::make_unique<po::SweepEstimator>(options), 1, true };
+  }
+  if (!without.empty())
+  {
+    throw std::runtime_error("--without is only for the method Sweep");
+  }
   if (name == "Reference")
   {
     return { std::make_unique<po::ReferenceEstimator>(), level, false };
   }
-  if (name == "Sweep")
+  if (name == "Embree")
   {
-    return { std::make_unique<po::SweepEstimator>(po::SweepOptions{ level, 0 }), 1, true };
+    return { std::make_unique<po::EmbreeEstimator>(po::EmbreeOptions{ level, 0 }), 1, false };
   }
   throw std::runtime_error("There is no method '" + name + "'");
 }
+
+/// Gets the raw textures while they are made.
+using Observer = std::function<void(const po::RawTextures&)>;
+
+/// RMS difference from values that an earlier run wrote, weighted like the error of a judge.
+class Comparison
+{
+public:
+  Comparison(const std::string& file, int resolution)
+    : file_(file, std::ios::binary)
+    , resolution_(resolution)
+  {
+  }
+
+  void add(const po::RawTextures& raw)
+  {
+    const auto side = static_cast<std::size_t>(resolution_);
+    std::vector<float> others(raw.count * side * side);
+    file_.read(reinterpret_cast<char*>(others.data()),
+      static_cast<std::streamsize>(others.size() * sizeof(float)));
+    if (!file_)
+    {
+      throw std::runtime_error("The values to compare with are too few, or cannot be read");
+    }
+    for (std::size_t i = 0; i < others.size(); ++i)
+    {
+      const double weight = static_cast<double>(raw.outsideShares[i]) *
+        po::texelArea(resolution_, static_cast<int>(i / side % side));
+      const double difference = static_cast<double>(raw.values[i]) - others[i];
+      squares_ += weight * difference * difference;
+      area_ += weight;
+    }
+  }
+
+  [[nodiscard]] double rms() const { return area_ > 0 ? std::sqrt(squares_ / area_) : 0; }
+
+private:
+  std::ifstream file_;
+  int resolution_;
+  double squares_ = 0;
+  double area_ = 0;
+};
 
 /// Passes on what an estimator finds and keeps the textures of some particles.
 class Recorder : public po::OcclusionEstimator
@@ -124,10 +202,10 @@ class Recorder : public po::OcclusionEstimator
 public:
   /// @param positions of the particles to keep, in the list that will be estimated
   Recorder(const po::OcclusionEstimator& estimator, const std::vector<std::size_t>& positions,
-    std::size_t texels, std::ostream* values)
+    std::size_t texels, Observer observer = {})
     : estimator_(estimator)
     , texels_(texels)
-    , values_(values)
+    , observer_(std::move(observer))
   {
     for (std::size_t slot = 0; slot < positions.size(); ++slot)
     {
@@ -166,16 +244,15 @@ private:
       std::copy_n(raw.values + from, texels_, kept_.values.begin() + to);
       std::copy_n(raw.outsideShares + from, texels_, kept_.shares.begin() + to);
     }
-    if (values_)
+    if (observer_)
     {
-      values_->write(reinterpret_cast<const char*>(raw.values),
-        static_cast<std::streamsize>(raw.count * texels_ * sizeof(float)));
+      observer_(raw);
     }
   }
 
   const po::OcclusionEstimator& estimator_;
   std::size_t texels_;
-  std::ostream* values_;
+  Observer observer_;
   std::map<std::size_t, std::size_t> slots_;
   mutable po::JudgedTexels kept_;
 };
@@ -235,13 +312,26 @@ int resolutionOf(const Options& options)
   return resolution;
 }
 
-/// The base name of a file; other names stay.
-std::string shortName(const std::string& scene)
+/// The base name of a file; other names stay. What is not the usual background comes behind it.
+std::string shortName(const Options& options)
 {
+  const std::string scene = options.required("scene");
   const std::size_t slash = scene.find_last_of('/');
   const std::string name = slash == std::string::npos ? scene : scene.substr(slash + 1);
   const std::size_t dot = name.rfind(".vtp");
-  return name.substr(0, dot);
+  const std::string background = options.text("background");
+  return name.substr(0, dot) + (background.empty() ? "" : "-" + background);
+}
+
+po::BakeSettings settingsOf(const Options& options)
+{
+  po::BakeSettings settings;
+  settings.textureResolution = resolutionOf(options);
+  if (!options.text("background").empty())
+  {
+    settings.background = po::makeBenchmarkBackground(options.text("background"));
+  }
+  return settings;
 }
 
 // ---- targets
@@ -269,16 +359,15 @@ void printTargets()
 
 // ---- judge
 
-po::JudgedTexels judgeHalf(const po::BakeScene& scene, const po::Judge& judge, std::uint64_t seed)
+po::JudgedTexels judgeHalf(
+  const po::BakeScene& scene, const po::Judge& judge, po::BakeSettings settings, std::uint64_t seed)
 {
-  po::BakeSettings settings;
-  settings.textureResolution = judge.resolution;
   settings.samplesPerTexel = judge.samples / 2;
   settings.seed = seed;
   std::vector<std::size_t> positions(judge.particles.size());
   std::iota(positions.begin(), positions.end(), std::size_t(0));
   const po::ReferenceEstimator reference;
-  const Recorder recorder(reference, positions, texelCount(judge.resolution), nullptr);
+  const Recorder recorder(reference, positions, texelCount(judge.resolution));
   po::Progress progress;
   po::BakeCounters counters;
   recorder.estimate(
@@ -288,12 +377,12 @@ po::JudgedTexels judgeHalf(const po::BakeScene& scene, const po::Judge& judge, s
 
 void makeJudge(const Options& options)
 {
-  const std::string name = options.required("scene");
   const std::string output = options.required("output");
-  const po::SphereCloud cloud = po::makeBenchmarkScene(name, sphereCount(options));
+  const po::SphereCloud cloud =
+    po::makeBenchmarkScene(options.required("scene"), sphereCount(options));
   const po::BakeScene scene(cloud);
   po::Judge judge;
-  judge.scene = shortName(name);
+  judge.scene = shortName(options);
   judge.spheres = cloud.spheres.size();
   judge.checksum = po::checksum(cloud);
   judge.resolution = resolutionOf(options);
@@ -305,8 +394,9 @@ void makeJudge(const Options& options)
   {
     throw std::runtime_error("There must be a particle to judge, and two samples a texel");
   }
-  po::mergeHalves(
-    judgeHalf(scene, judge, judge.seeds[0]), judgeHalf(scene, judge, judge.seeds[1]), judge);
+  const po::BakeSettings settings = settingsOf(options);
+  po::mergeHalves(judgeHalf(scene, judge, settings, judge.seeds[0]),
+    judgeHalf(scene, judge, settings, judge.seeds[1]), judge);
   po::writeJudge(judge, output);
   std::printf("{\"scene\": \"%s\", \"particles\": %zu, \"samples\": %d, \"noise\": %.6g}\n",
     judge.scene.c_str(), judge.spheres, judge.samples, judge.noise);
@@ -358,9 +448,10 @@ po::Judge judgeFor(const Options& options, const po::SphereCloud& cloud, int res
   }
   po::Judge judge = po::readJudge(file);
   if (judge.checksum != po::checksum(cloud) || judge.spheres != cloud.spheres.size() ||
-    judge.resolution != resolution)
+    judge.resolution != resolution || judge.scene != shortName(options))
   {
-    throw std::runtime_error(file + " was made from other spheres or for other textures");
+    throw std::runtime_error(
+      file + " was made from other spheres, for other textures or under another background");
   }
   return judge;
 }
@@ -397,41 +488,88 @@ void printError(const po::VisibilityError& error, const po::Judge& judge)
     error.rms, error.bias, error.percentile99, judge.noise, judge.particles.size());
 }
 
+void printCounters(const po::BakeCounters& counters, bool baked)
+{
+  const std::pair<const char*, std::uint64_t> spared[] = {
+    { "spheresClosed", counters.spheresClosed },
+    { "spheresNeverSeen", counters.spheresNeverSeen },
+    { "directionsBlack", counters.directionsBlack },
+    { "texelsInside", counters.texelsInside },
+    { "particlesBuried", counters.particlesBuried },
+  };
+  for (const auto& [name, count] : spared)
+  {
+    std::printf(", \"%s\": %llu", name, static_cast<unsigned long long>(count));
+  }
+  if (baked) // else there is no table
+  {
+    std::printf(
+      ", \"texturesStored\": %llu", static_cast<unsigned long long>(counters.texturesStored));
+  }
+}
+
 /// Estimates the list, or bakes all.
-void run(const Recorder& recorder, const po::BakeScene& scene, const std::vector<unsigned>& list,
-  const po::BakeSettings& settings, bool bake)
+po::BakeCounters run(const Recorder& recorder, const po::BakeScene& scene,
+  const std::vector<unsigned>& list, const po::BakeSettings& settings, bool bake)
 {
   po::Progress progress;
   po::BakeCounters counters;
   if (bake)
   {
-    (void)po::bakeOcclusion(scene, settings, recorder, progress);
-    return;
+    return po::bakeOcclusion(scene, settings, recorder, progress).counters;
   }
   recorder.estimate(
     scene, list, settings, progress, [](const po::RawTextures&) {}, counters);
+  return counters;
 }
 
-std::unique_ptr<std::ofstream> openValues(const Options& options)
+/// Writes the values as raw floats, if that is asked for.
+Observer valueWriter(const Options& options)
 {
-  const std::string file = options.text("values");
-  if (file.empty())
+  const std::string name = options.text("values");
+  if (name.empty())
   {
-    return nullptr;
+    return {};
   }
-  auto values = std::make_unique<std::ofstream>(file, std::ios::binary);
-  if (!*values)
+  const auto file = std::make_shared<std::ofstream>(name, std::ios::binary);
+  if (!*file)
   {
-    throw std::runtime_error("Cannot write " + file);
+    throw std::runtime_error("Cannot write " + name);
   }
-  return values;
+  return [file, texels = texelCount(resolutionOf(options))](const po::RawTextures& raw)
+  {
+    file->write(reinterpret_cast<const char*>(raw.values),
+      static_cast<std::streamsize>(raw.count * texels * sizeof(float)));
+  };
+}
+
+std::unique_ptr<Comparison> makeComparison(const Options& options)
+{
+  const std::string file = options.text("compare");
+  return file.empty() ? nullptr : std::make_unique<Comparison>(file, resolutionOf(options));
+}
+
+Observer joined(Observer writer, Comparison* comparison)
+{
+  if (!comparison)
+  {
+    return writer;
+  }
+  return [writer = std::move(writer), comparison](const po::RawTextures& raw)
+  {
+    comparison->add(raw);
+    if (writer)
+    {
+      writer(raw);
+    }
+  };
 }
 
 /// What the command line says of a measurement.
 Measurement describe(const Options& options)
 {
   Measurement result;
-  result.scene = shortName(options.required("scene"));
+  result.scene = shortName(options);
   result.method = options.required("method");
   result.level = options.number("level", 0);
   result.resolution = resolutionOf(options);
@@ -469,7 +607,7 @@ Selection select(const Options& options, const Method& method, std::size_t parti
 void measure(const Options& options)
 {
   Measurement result = describe(options);
-  const Method method = makeMethod(result.method, result.level);
+  const Method method = makeMethod(result.method, result.level, options.text("without"));
   if (!options.text("target").empty())
   {
     allowOnlyTarget(options.text("target"));
@@ -487,22 +625,27 @@ void measure(const Options& options)
   const po::Judge judge = judgeFor(options, cloud, result.resolution);
   const Selection selection = select(options, method, result.particles, judge.particles);
   result.measured = selection.list.size();
-  po::BakeSettings settings;
-  settings.textureResolution = result.resolution;
+  po::BakeSettings settings = settingsOf(options);
   settings.samplesPerTexel = method.samplesPerTexel;
   settings.seed = MeasuredSeed;
-  const std::unique_ptr<std::ofstream> values = openValues(options);
-  const Recorder recorder(
-    *method.estimator, selection.judged, texelCount(result.resolution), values.get());
+  const std::unique_ptr<Comparison> comparison = makeComparison(options);
+  const Recorder recorder(*method.estimator, selection.judged, texelCount(result.resolution),
+    joined(valueWriter(options), comparison.get()));
+  const bool bake = method.allAtOnce && options.number("bake", 0) > 0;
 
   const Stopwatch watch;
-  run(recorder, scene, selection.list, settings, method.allAtOnce && options.number("bake", 0) > 0);
+  const po::BakeCounters counters = run(recorder, scene, selection.list, settings, bake);
   const Seconds seconds = watch.elapsed();
   const double scale = static_cast<double>(result.particles) / static_cast<double>(result.measured);
   result.seconds = { scale * seconds.cpu, scale * seconds.wall };
   result.peakMegabytes = statusMegabytes("VmHWM");
 
   printMeasurement(result);
+  printCounters(counters, bake);
+  if (comparison)
+  {
+    std::printf(", \"rms_difference\": %.6g", comparison->rms());
+  }
   if (!judge.particles.empty())
   {
     printError(po::errorOf(recorder.kept(), judge), judge);

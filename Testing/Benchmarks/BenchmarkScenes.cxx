@@ -134,6 +134,21 @@ SphereCloud makeBenchmarkScene(const std::string& name, std::size_t count)
   throw std::runtime_error("There is no scene '" + name + "'");
 }
 
+Background makeBenchmarkBackground(const std::string& name)
+{
+  if (name != "half")
+  {
+    throw std::runtime_error("There is no background '" + name + "'");
+  }
+  // Rows are interpolated between their centres. With an odd number of them the centre of a black
+  // one lies on the horizon; of two rows, light would reach 45 degrees below it.
+  constexpr int Width = 4;
+  constexpr int Rows = 65;
+  std::vector<float> light(std::size_t(Width) * Rows, 0);
+  std::fill(light.begin(), light.begin() + Width * (Rows / 2), 1.0f);
+  return ImageBackground{ Width, Rows, std::move(light) };
+}
+
 std::uint64_t checksum(const SphereCloud& cloud)
 {
   std::uint64_t hash = 0xCBF29CE484222325ull;

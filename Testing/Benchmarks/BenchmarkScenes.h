@@ -2,6 +2,7 @@
 #ifndef po_BenchmarkScenes_h
 #define po_BenchmarkScenes_h
 
+#include "Background.h"
 #include "SphereCloud.h"
 
 #include <cstddef>
@@ -22,6 +23,10 @@ namespace po
 ///
 /// Throws std::runtime_error if there is no such scene.
 [[nodiscard]] SphereCloud makeBenchmarkScene(const std::string& name, std::size_t count);
+
+/// The background of a benchmark by name: "half" is 1 above the horizon (a band of 3 degrees leads
+/// up to it) and exactly 0 below. Throws std::runtime_error if there is no such background.
+[[nodiscard]] Background makeBenchmarkBackground(const std::string& name);
 
 /// Tells whether two clouds have the same spheres (FNV-1a of their bits).
 [[nodiscard]] std::uint64_t checksum(const SphereCloud& cloud);

@@ -8,12 +8,12 @@ matplotlib.use("Agg")  # no display
 import matplotlib.pyplot as plt
 
 from error_benchmark_report import (
-    BASELINE, THESIS_MINUTES, equal_error_ratios, pick, thread_ratios, unique)
+    BASELINE, THESIS_MINUTES, equal_error_ratios, pick, skip_pairs, thread_ratios, unique)
 
 # The same input gives the same file, without dates and random names.
 plt.rcParams["svg.hashsalt"] = "ParticleOcclusion"
-COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00"]
-MARKERS = "osD^v"
+COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"]
+MARKERS = "osD^vP"
 
 
 def save(figure, folder, name):
@@ -66,7 +66,7 @@ def bars(axis, groups, names, value_of, label="{:.3g}"):
     axis.grid(True, axis="y", alpha=0.25)
     axis.set_axisbelow(True)
     if len(names) > 1:
-        axis.legend()
+        axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1), borderaxespad=0)
 
 
 def first_of(rows, name):
@@ -160,6 +160,26 @@ def plot_simd(rows, folder):
     return save(figure, folder, "simd")
 
 
+def plot_skips(rows, folder):
+    pairs = skip_pairs(rows)
+    if not pairs:
+        return []
+    figure, (axis,) = panels(1, 10, 4)
+    bars(axis, unique(p["scene"] for p in pairs), unique(p["skip"] for p in pairs),
+         lambda scene, skip: first_of(pick(pairs, scene=scene, skip=skip), "ratio"))
+    axis.axhline(1, color="black", linewidth=0.8)
+    axis.set_ylabel("CPU time without the skip / with it")
+    return save(figure, folder, "skips")
+
+
+def plot_rays(rows, folder):
+    figure, (axis,) = panels(1, 7, 4)
+    bars(axis, [row["scene"] for row in rows], ["ray rate"],
+         lambda scene, _: 100 * first_of(pick(rows, scene=scene), "ray_rate"))
+    axis.set_ylabel("rate of tracing, % of bare rtcOccluded1")
+    return save(figure, folder, "rays")
+
+
 def plot_thesis(rows, folder):
     figure, (axis,) = panels(1, 8, 4)
     names = ["thesis, fastest", "thesis, slowest"] + [row["scene"] for row in rows]
@@ -173,7 +193,7 @@ def plot_thesis(rows, folder):
 PLOTS = {
     "error": plot_error, "size": plot_size, "resolution": plot_resolution,
     "radii": plot_ratio_gas, "overlap": plot_overlap, "threads": plot_threads,
-    "simd": plot_simd, "thesis": plot_thesis}
+    "simd": plot_simd, "skips": plot_skips, "rays": plot_rays, "thesis": plot_thesis}
 
 
 def plot(series, rows, folder):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Rows of the error benchmark as CSV and Markdown, and what is derived from them."""
+import collections
 import csv
 import math
 import os
@@ -7,10 +8,16 @@ import os
 COLUMNS = [
     "series", "scene", "particles", "resolution", "method", "level", "threads", "target",
     "measured_particles", "cpu_s", "wall_s", "scene_cpu_s", "scene_wall_s", "peak_MB", "scene_MB",
-    "rmse", "bias", "p99", "judge_noise", "judged_particles", "max_difference"]
-TEXT_COLUMNS = {"series", "scene", "method", "target"}
+    "rmse", "bias", "p99", "judge_noise", "judged_particles", "max_difference",
+    "skip", "state", "background", "rms_difference",
+    "spheresClosed", "spheresNeverSeen", "directionsBlack", "texelsInside", "particlesBuried",
+    "texturesStored",
+    "rays", "bake_ms", "generate_ms", "bare_ms", "share", "ray_rate"]
+TEXT_COLUMNS = {"series", "scene", "method", "target", "skip", "state", "background"}
 WHOLE_COLUMNS = {
-    "particles", "resolution", "level", "threads", "measured_particles", "judged_particles"}
+    "particles", "resolution", "level", "threads", "measured_particles", "judged_particles",
+    "spheresClosed", "spheresNeverSeen", "directionsBlack", "texelsInside", "particlesBuried",
+    "texturesStored", "rays"}
 
 BASELINE = ("Reference", 49)
 
@@ -57,20 +64,25 @@ def pick(rows, **wanted):
     return [row for row in rows if all(row.get(name) == value for name, value in wanted.items())]
 
 
-def seconds_at_error(rows, error):
-    """CPU seconds of a method at an RMSE, between two levels on a log-log line.
+# CPU seconds and level of a method at an error, and "at most" where it is an upper bound, or "".
+Crossing = collections.namedtuple("Crossing", "cpu_s level bound")
 
-    Returns the seconds and "" or, if even the coarsest level is better, its seconds and "at most";
-    nothing if no level is good enough. Where the error goes up and down, the last crossing counts.
+
+def at_error(rows, error):
+    """The crossing of an RMSE by a method, between two levels on a log-log line.
+
+    If even the coarsest level is better, that level and "at most"; nothing if no level is good
+    enough. Where the error goes up and down, the last crossing counts.
     """
     rows = [row for row in sorted(rows, key=lambda row: row["level"]) if row["rmse"] > 0]
     for coarse, fine in reversed(list(zip(rows, rows[1:]))):
         if coarse["rmse"] >= error >= fine["rmse"]:
             span = math.log(fine["rmse"] / coarse["rmse"])
             t = math.log(error / coarse["rmse"]) / span if span else 0
-            return coarse["cpu_s"] * (fine["cpu_s"] / coarse["cpu_s"]) ** t, ""
+            return Crossing(*(coarse[name] * (fine[name] / coarse[name]) ** t
+                              for name in ["cpu_s", "level"]), "")
     if rows and rows[0]["rmse"] < error:
-        return rows[0]["cpu_s"], "at most"
+        return Crossing(rows[0]["cpu_s"], rows[0]["level"], "at most")
     return None
 
 
@@ -82,12 +94,12 @@ def equal_error_ratios(rows):
         if not baseline or "rmse" not in baseline[0]:
             continue
         for method in unique(row["method"] for row in pick(rows, scene=scene)):
-            found = seconds_at_error(pick(rows, scene=scene, method=method), baseline[0]["rmse"])
+            found = at_error(pick(rows, scene=scene, method=method), baseline[0]["rmse"])
             if method != BASELINE[0] and found:
                 ratios.append({
                     "scene": scene, "method": method, "rmse": baseline[0]["rmse"],
-                    "baseline_s": baseline[0]["cpu_s"], "cpu_s": found[0],
-                    "ratio": baseline[0]["cpu_s"] / found[0], "bound": found[1]})
+                    "baseline_s": baseline[0]["cpu_s"], **found._asdict(),
+                    "ratio": baseline[0]["cpu_s"] / found.cpu_s})
     return ratios
 
 
@@ -99,6 +111,40 @@ def thread_ratios(rows):
         if single and row["threads"] != 1:
             ratios.append({**row, "ratio": single[0]["wall_s"] / row["wall_s"]})
     return ratios
+
+
+def skip_pairs(rows):
+    """For each scene and skip the rows with and without it."""
+    pairs = []
+    for off in pick(rows, state="off"):
+        on = pick(rows, scene=off["scene"], skip=off["skip"], state="on")
+        if on:
+            pairs.append({"scene": off["scene"], "skip": off["skip"], "on": on[0], "off": off,
+                          "ratio": off["cpu_s"] / on[0]["cpu_s"]})
+    return pairs
+
+
+def spared(row):
+    """What a sweep left out by the skip that the row is about, in words."""
+    directions = row["level"] - row["directionsBlack"]
+    counts = {"closedCells": "spheresClosed", "neverSeen": "spheresNeverSeen"}
+    if row["skip"] in counts:
+        share = row[counts[row["skip"]]] / (row["particles"] * max(1, directions))
+        return f"{100 * share:.1f} % of visits"
+    if row["skip"] == "blackSky":
+        return f"{row['directionsBlack']} of {row['level']} directions"
+    return "not counted"
+
+
+def ray_row(results, family):
+    """The medians of BenchmarkBake for a family, and what it makes of them itself."""
+    medians = {result["run_name"].split("/")[0]: result for result in results
+               if result.get("aggregate_name") == "median"
+               and result["run_name"].split("/")[1] == family}
+    bake, generate, bare = (medians[name]["cpu_time"] for name in ["Bake", "Generate", "Bare"])
+    return {"rays": round(medians["Bare"]["rays"]), "bake_ms": bake, "generate_ms": generate,
+            "bare_ms": bare, "share": (generate + bare) / bake,
+            "ray_rate": bare / (bake - generate)}
 
 
 # ---- Markdown
@@ -137,8 +183,13 @@ def rows_table(rows):
                  [[row.get(name) for name in names] for row in rows])
 
 
+def scene_and_light(row):
+    light = row.get("background", "uniform")
+    return row["scene"] if light == "uniform" else f"{row['scene']} ({light})"
+
+
 def noise_line(rows):
-    noises = {row["scene"]: row["judge_noise"] for row in rows if "judge_noise" in row}
+    noises = {scene_and_light(row): row["judge_noise"] for row in rows if "judge_noise" in row}
     if not noises:
         return ""
     listed = ", ".join(f"{scene} {number(noise, 2)}" for scene, noise in noises.items())
@@ -149,10 +200,10 @@ def scaled_line(rows):
     scaled = [row for row in rows if row["measured_particles"] < row["particles"]]
     if not scaled:
         return ""
-    methods = ", ".join(unique(row["method"] for row in scaled))
+    methods = " and ".join(unique(row["method"] for row in scaled))
     return (f"\nThe seconds of {methods} were measured on "
             f"{min(row['measured_particles'] for row in scaled)} particles or more, drawn at "
-            "random, and are scaled to all; its memory is that of the measured ones.\n")
+            "random, and are scaled to all; their memory is that of the measured ones.\n")
 
 
 def error_extra(rows):
@@ -160,12 +211,13 @@ def error_extra(rows):
     if not ratios:
         return ""
     lines = [[r["scene"], r["method"], r["rmse"], r["baseline_s"],
+              f"{r['bound']} {round(r['level'])}".strip(),
               f"{r['bound']} {number(r['cpu_s'])}".strip(),
               f"{'at least ' if r['bound'] else ''}{number(r['ratio'])}"] for r in ratios]
     return (f"\n## At the RMSE of {BASELINE[0]} {BASELINE[1]}\n\n"
             "Interpolated between levels, log-log; CPU seconds.\n\n" +
-            table(["scene", "method", "RMSE", f"{BASELINE[0]} {BASELINE[1]}, s", "s", "ratio"],
-                  lines))
+            table(["scene", "method", "RMSE", f"{BASELINE[0]} {BASELINE[1]}, s", "directions", "s",
+                   "ratio"], lines))
 
 
 def threads_extra(rows):
@@ -186,11 +238,46 @@ def thesis_extra(rows):
             table(["data", "particles", "machine", "minutes, wall-clock"], lines))
 
 
+def skips_body(rows):
+    lines = [[p["scene"], p["skip"], p["on"]["cpu_s"], p["off"]["cpu_s"], p["ratio"],
+              p["on"]["rmse"], p["off"]["rmse"], p["off"]["rms_difference"], spared(p["on"])]
+             for p in skip_pairs(rows)]
+    return ("Each skip is switched off alone. blackSky: under a background that is black below the "
+            "horizon.\nA visit is one sphere in one direction.\n\n" +
+            table(["scene", "skip", "CPU s on", "off", "off / on", "RMSE on", "off",
+                   "RMS difference", "spared"], lines) + stored_table(rows))
+
+
+def stored_table(rows):
+    """What needs no switch, from the rows that go on to the table of stored textures."""
+    lines = [[row["scene"], row["particles"], row["particlesBuried"],
+              f"{100 * row['texelsInside'] / (row['particles'] * row['resolution']**2):.1f} %",
+              row["texturesStored"], row["cpu_s"]]
+             for row in rows if "texturesStored" in row]
+    return "\n## Always spared\n\n" + table(
+        ["scene", "particles", "buried", "texels inside others", "textures stored",
+         "CPU s with the table"], lines)
+
+
+def rays_body(rows):
+    lines = [[row["scene"], row["rays"], row["bake_ms"], row["generate_ms"], row["bare_ms"],
+              f"{100 * row['share']:.0f} %", f"{100 * row['ray_rate']:.0f} %"] for row in rows]
+    return ("One thread, medians of CPU milliseconds. Share = (generate + bare) / bake; ray rate = "
+            "bare /\n(bake - generate), the rate of tracing against the bare loop's.\n\n" +
+            table(["family", "rays", "bake, ms", "generate", "bare Embree", "share", "ray rate"],
+                  lines))
+
+
+# Series whose rows are no plain measurements.
+BODIES = {"skips": skips_body, "rays": rays_body}
 EXTRAS = {"error": error_extra, "threads": threads_extra, "thesis": thesis_extra}
 
 
 def write_markdown(file, series, title, rows):
     """The whole report of one series."""
-    extra = EXTRAS[series](rows) if series in EXTRAS else ""
-    text = (f"# {title}\n\n" + rows_table(rows) + noise_line(rows) + scaled_line(rows) + extra)
-    file.write_text(text, encoding="utf-8")
+    if series in BODIES:
+        body = BODIES[series](rows) + noise_line(rows)
+    else:
+        extra = EXTRAS[series](rows) if series in EXTRAS else ""
+        body = rows_table(rows) + noise_line(rows) + scaled_line(rows) + extra
+    file.write_text(f"# {title}\n\n{body}", encoding="utf-8")

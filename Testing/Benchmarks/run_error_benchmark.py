@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Benchmark of run time against error: CSV, Markdown and plots from runs of BenchmarkError.
+"""Benchmark of run time against error: CSV, Markdown and plots from runs of BenchmarkError (and,
+for the rate of rays, of BenchmarkBake).
 
 Each measurement is a process of its own. README.md in this folder tells what is measured and how
 long it takes. Plots need python3-matplotlib; without it the rest is written all the same.
@@ -26,13 +27,25 @@ SHIPPED_REFERENCES = HERE / "References"
 # makeMethod() of BenchmarkError.cxx.
 METHODS = {
     "Reference": [4, 9, 16, 25, 49, 100, 196],    # samples a texel
-    "Sweep": [16, 32, 64, 128, 256, 512, 1024]}   # directions
-TINY_LEVELS = {"Reference": [4, 49], "Sweep": [16, 256]}
-USUAL_LEVELS = {"Reference": 49, "Sweep": 144}    # what the filter takes by default
+    "Sweep": [16, 32, 64, 128, 256, 512, 1024],   # directions
+    "Embree": [32, 64, 128, 256, 512]}            # directions
+TINY_LEVELS = {"Reference": [4, 49], "Sweep": [16, 256], "Embree": [32, 256]}
+USUAL_LEVELS = {"Reference": 49, "Sweep": 144, "Embree": 144}  # what the filter takes by default
 SWEEP = {"Sweep": 144}
+# Particles whose time is taken, where it is not the program's own number. Embree prepares its
+# directions once for all: on few particles that would count for too much.
+MEASURED = {"Embree": 2048}
 
 FAMILIES = ["pack", "overlap", "gas", "shell", "foam"]
 FILES = {name: SOURCE / "Data" / f"{name}.vtp" for name in ["heap", "molecule", "bullet_1000"]}
+
+# What a sweep can be kept from leaving out, and the background that shows it.
+SKIPS = {"closedCells": None, "neverSeen": None, "offsetMasks": None, "blackSky": "half"}
+SKIP_SETS = ["pack", "overlap", "gas", "foam", "heap", "bullet_1000"]
+SKIP_REPEATS = 3
+
+# Repetitions of BenchmarkBake, of which it takes the median.
+RAY_REPEATS = {"tiny": 2, "short": 3, "long": 11}
 
 SHORT_COUNT = 30_000
 LONG_COUNT = 955_000
@@ -52,6 +65,8 @@ TITLES = {
     "overlap": "Time and error against overlap (jittered lattice; touching at 0.5)",
     "threads": "Threads",
     "simd": "Sweep: sets of vector instructions",
+    "skips": "Sweep: what it may leave out, on and off",
+    "rays": "Reference: rate of rays against bare rtcOccluded1 over the same rays",
     "thesis": "Textures of 955,000 particles"}
 
 # Samples a texel of reference values: those that are shipped, and those made when needed.
@@ -66,9 +81,10 @@ def family(name, count):
     return Scene(name, name, count)
 
 
-def judge_name(scene):
+def judge_name(scene, background=None):
     count = f"-{scene.count}" if scene.count else ""
-    return f"{scene.label.replace(':', '-')}{count}-T{RESOLUTION}.ref"
+    light = f"-{background}" if background else ""
+    return f"{scene.label.replace(':', '-')}{count}-T{RESOLUTION}{light}.ref"
 
 
 class Benchmark:
@@ -77,7 +93,7 @@ class Benchmark:
     def __init__(self, options):
         self.options = options
         self.tiny = options.tiny
-        self.form = "long" if options.long else "short"
+        self.form = "tiny" if options.tiny else "long" if options.long else "short"
         self.output = pathlib.Path(options.output)
         self.references = self.output / "references"
         self.rows = []
@@ -95,23 +111,46 @@ class Benchmark:
         count = ["--count", scene.count] if scene.count else []
         return ["--scene", scene.argument, "--resolution", resolution, *count]
 
-    def judge(self, scene):
+    @staticmethod
+    def option_arguments(**values):
+        """Options of the program; those that are None are left out."""
+        return [text for name, value in values.items() if value is not None
+                for text in (f"--{name}", value)]
+
+    def judge(self, scene, background=None):
         """The file of reference values: the shipped one, or one made beside the results."""
-        shipped = SHIPPED_REFERENCES / judge_name(scene)
+        shipped = SHIPPED_REFERENCES / judge_name(scene, background)
         if shipped.exists():
             return shipped
-        file = self.references / judge_name(scene)
+        file = self.references / judge_name(scene, background)
         if not file.exists():
             self.references.mkdir(parents=True, exist_ok=True)
-            self.write_judge(scene, file, TINY_SAMPLES if self.tiny else PASSING_SAMPLES)
+            samples = TINY_SAMPLES if self.tiny else PASSING_SAMPLES
+            self.write_judge(scene, file, samples, background)
         return file
 
-    def write_judge(self, scene, file, samples):
+    def write_judge(self, scene, file, samples, background=None):
         print(f"reference values: {file.name}", flush=True)
         part = file.with_suffix(".part")
         self.call("judge", *self.scene_arguments(scene, RESOLUTION), "--samples", samples,
-                  "--output", part)
+                  "--output", part, *self.option_arguments(background=background))
         os.replace(part, file)
+
+    def run_once(self, scene, method, level, resolution=RESOLUTION, **more):
+        """What one run of the program says."""
+        return json.loads(self.call(
+            "measure", *self.scene_arguments(scene, resolution), "--method", method, "--level",
+            level, *self.option_arguments(**more)))
+
+    def leave_out(self, series, what, problem):
+        self.failures += 1
+        print(f"{series}: {what} is left out: {problem}", flush=True)
+
+    def keep(self, series, scene, row, **more):
+        """Adds a row and writes all so far, for those who interrupt."""
+        row.update(series=series, scene=scene.label, **more)
+        self.rows.append(row)
+        report.write_csv(self.output / f"{series}.csv", self.rows)
 
     def measure(self, series, scene, method, level, resolution=RESOLUTION, judge=None,
                 **more):
@@ -119,28 +158,20 @@ class Benchmark:
 
         Where the program fails (it may have been killed for want of memory), the rest goes on.
         """
-        arguments = ["measure", *self.scene_arguments(scene, resolution), "--method", method,
-                     "--level", level]
-        if judge:
-            arguments += ["--judge", judge]
-        for name, value in more.items():
-            arguments += [f"--{name}", value]
+        more.setdefault("measured", MEASURED.get(method))
         try:
-            runs = [json.loads(self.call(*arguments)) for _ in range(self.options.repeat)]
+            runs = [self.run_once(scene, method, level, resolution, judge=judge, **more)
+                    for _ in range(self.options.repeat)]
         except subprocess.CalledProcessError as problem:
-            self.failures += 1
-            print(f"{series}: {scene.label} {method} {level} is left out: {problem}", flush=True)
+            self.leave_out(series, f"{scene.label} {method} {level}", problem)
             return None
         seconds = "wall_s" if series == "threads" else "cpu_s"
         row = min(runs, key=lambda run: run[seconds])
-        row.update(series=series, scene=scene.label,
-                   threads=more.get("threads", self.options.threads),
-                   target=more.get("target", "best"))
-        self.rows.append(row)
+        self.keep(series, scene, row, threads=more.get("threads", self.options.threads),
+                  target=more.get("target", "best"))
         print(f"{series}: {scene.label} {row['particles']} T={resolution} {method} {level}: "
               f"{row['cpu_s']:.3g} CPU s, {row['peak_MB']:.0f} MB, RMSE {row.get('rmse', '-')}",
               flush=True)
-        report.write_csv(self.output / f"{series}.csv", self.rows)
         return row
 
     # ---- series
@@ -150,9 +181,9 @@ class Benchmark:
             return TINY_COUNT
         return LONG_COUNT if self.form == "long" else SHORT_COUNT
 
-    def scenes(self):
+    def scenes(self, wanted=(*FAMILIES, *FILES)):
         """The families and the shipped files, or those that the user chose."""
-        chosen = self.options.sets or (["gas"] if self.tiny else [*FAMILIES, *FILES])
+        chosen = self.options.sets or (["gas"] if self.tiny else wanted)
         return [family(name, self.count()) if name in FAMILIES
                 else Scene(name, FILES[name], None) for name in chosen]
 
@@ -168,7 +199,7 @@ class Benchmark:
                     self.measure("error", scene, method, level, judge=judge)
 
     def run_size(self):
-        largest = self.options.largest or LARGEST_SIZE[self.form]
+        largest = self.options.largest or LARGEST_SIZE["long" if self.form == "long" else "short"]
         sizes = [100, 200] if self.tiny else [size for size in SIZES if size <= largest]
         for scene in self.some_families(["pack", "gas", "foam"]):
             before = None
@@ -234,6 +265,59 @@ class Benchmark:
             values.frombytes(file.read_bytes())
             return values
 
+    def run_skips(self):
+        for scene in self.scenes(SKIP_SETS):
+            for skip, background in SKIPS.items():
+                try:
+                    self.measure_skip(scene, skip, background)
+                except subprocess.CalledProcessError as problem:
+                    self.leave_out("skips", f"{scene.label} {skip}", problem)
+            # What is always spared, up to the table of textures.
+            self.measure("skips", scene, "Sweep", SWEEP["Sweep"], bake=1)
+
+    def measure_skip(self, scene, skip, background):
+        """Two rows, one with all skips and one without this one: the fastest of runs in turns."""
+        switches = {"on": None, "off": skip}
+        judge = self.judge(scene, background)
+        runs = {state: [] for state in switches}
+        for _ in range(1 if self.tiny else max(SKIP_REPEATS, self.options.repeat)):
+            for state, without in switches.items():
+                runs[state].append(self.run_once(
+                    scene, "Sweep", SWEEP["Sweep"], judge=judge, background=background,
+                    without=without))
+        rows = {state: min(runs[state], key=lambda run: run["cpu_s"]) for state in switches}
+        rows["off"]["rms_difference"] = self.difference(scene, skip, background)
+        for state, row in rows.items():
+            self.keep("skips", scene, row, threads=self.options.threads, target="best", skip=skip,
+                      state=state, background=background or "uniform")
+        print(f"skips: {scene.label} {skip}: {rows['on']['cpu_s']:.3g} CPU s on, "
+              f"{rows['off']['cpu_s']:.3g} off", flush=True)
+
+    def difference(self, scene, skip, background):
+        """RMS difference of all texels without a skip; from runs that are not timed."""
+        with tempfile.TemporaryDirectory(dir=self.output) as folder:
+            file = pathlib.Path(folder) / "values"
+            self.run_once(scene, "Sweep", SWEEP["Sweep"], background=background, values=file)
+            return self.run_once(scene, "Sweep", SWEEP["Sweep"], background=background,
+                                 without=skip, compare=file)["rms_difference"]
+
+    def run_rays(self):
+        scenes = {scene.label: scene for scene in self.some_families(FAMILIES)}
+        if not scenes:
+            return
+        with tempfile.TemporaryDirectory(dir=self.output) as folder:
+            file = pathlib.Path(folder) / "rays.json"
+            command = [self.options.bake_program,
+                       f"--benchmark_filter=/({'|'.join(scenes)})$",
+                       f"--benchmark_repetitions={RAY_REPEATS[self.form]}",
+                       f"--benchmark_out={file}", "--benchmark_out_format=json"]
+            if self.tiny:
+                command.append("--benchmark_min_time=0.01")
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            results = json.loads(file.read_text(encoding="utf-8"))["benchmarks"]
+        for label, scene in scenes.items():
+            self.keep("rays", scene, report.ray_row(results, label))
+
     def run_thesis(self):
         for scene in self.some_families(FAMILIES, None if self.tiny else LONG_COUNT):
             self.measure("thesis", scene, "Sweep", SWEEP["Sweep"], bake=1)
@@ -288,6 +372,8 @@ def parse_arguments():
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", default=SOURCE / "build" / "bin" / "BenchmarkError",
                         type=pathlib.Path, help="BenchmarkError [build/bin/BenchmarkError]")
+    parser.add_argument("--bake-program", type=pathlib.Path,
+                        help="BenchmarkBake, for the series rays [beside BenchmarkError]")
     parser.add_argument("--output", default=SOURCE / "build" / "benchmarks", type=pathlib.Path,
                         help="folder for the results [build/benchmarks]")
     parser.add_argument("--series", nargs="+", default=["error"], choices=["all", *TITLES],
@@ -306,6 +392,7 @@ def parse_arguments():
     parser.add_argument("--write-references", action="store_true",
                         help="only make the files in References anew")
     options = parser.parse_args()
+    options.bake_program = options.bake_program or options.program.with_name("BenchmarkBake")
     options.threads = len(os.sched_getaffinity(0))
     if options.repeat < 1:
         parser.error("--repeat must be at least 1")

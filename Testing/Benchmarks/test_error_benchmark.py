@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The benchmark of run time against error: its results have the form that README.md tells.
 
-usage: python3 test_error_benchmark.py PATH_TO_BenchmarkError
+usage: python3 test_error_benchmark.py PATH_TO_BenchmarkError PATH_TO_BenchmarkBake
 """
 import csv
 import math
@@ -14,6 +14,7 @@ import unittest
 import error_benchmark_report as report
 
 PROGRAM = None
+BAKE_PROGRAM = None
 SCRIPT = pathlib.Path(__file__).with_name("run_error_benchmark.py")
 
 POSITIVE = ["particles", "resolution", "level", "threads", "measured_particles", "cpu_s", "wall_s",
@@ -22,8 +23,8 @@ OF_ERROR = ["rmse", "p99", "judge_noise", "judged_particles"]
 
 
 def run(*arguments):
-    return subprocess.run([sys.executable, str(SCRIPT), "--program", PROGRAM, *map(str, arguments)],
-                          capture_output=True, text=True)
+    return subprocess.run([sys.executable, str(SCRIPT), "--program", PROGRAM, "--bake-program",
+                           BAKE_PROGRAM, *map(str, arguments)], capture_output=True, text=True)
 
 
 def has_matplotlib():
@@ -42,7 +43,8 @@ class TinyForm(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
-        cls.done = run("--tiny", "--series", "error", "simd", "--output", cls.folder)
+        cls.done = run("--tiny", "--series", "error", "simd", "skips", "rays", "--output",
+                       cls.folder)
 
     def rows(self, series):
         self.assertEqual(self.done.returncode, 0, self.done.stdout + self.done.stderr)
@@ -56,7 +58,7 @@ class TinyForm(unittest.TestCase):
 
     def test_rows_have_finite_positive_numbers(self):
         rows = self.rows("error")
-        self.assertEqual(len(rows), 4)
+        self.assertEqual(len(rows), 6)
         for row in rows:
             self.assert_positive(row, POSITIVE + OF_ERROR)
             self.assertTrue(math.isfinite(row["bias"]))
@@ -65,7 +67,7 @@ class TinyForm(unittest.TestCase):
 
     def test_error_decreases_from_coarse_to_fine(self):
         rows = self.rows("error")
-        for method in ["Reference", "Sweep"]:
+        for method in ["Reference", "Sweep", "Embree"]:
             with self.subTest(method=method):
                 coarse, fine = sorted(report.pick(rows, method=method), key=lambda r: r["level"])
                 self.assertLess(fine["rmse"], coarse["rmse"])
@@ -76,14 +78,51 @@ class TinyForm(unittest.TestCase):
             self.assert_positive(row, POSITIVE)
             self.assertLess(row["max_difference"], 0.05, row["target"])
 
+    def test_skips_that_are_off_spare_nothing(self):
+        rows = self.rows("skips")
+        counters = {"closedCells": "spheresClosed", "neverSeen": "spheresNeverSeen",
+                    "blackSky": "directionsBlack"}
+        pairs = report.skip_pairs(rows)
+        self.assertEqual([pair["skip"] for pair in pairs],
+                         ["closedCells", "neverSeen", "offsetMasks", "blackSky"])
+        for pair in pairs:
+            with self.subTest(skip=pair["skip"]):
+                self.assert_positive(pair["on"], POSITIVE + OF_ERROR)
+                self.assert_positive(pair["off"], POSITIVE + OF_ERROR)
+                self.assertLess(pair["off"]["rms_difference"], 0.1)
+                if pair["skip"] in counters:
+                    self.assertEqual(pair["off"][counters[pair["skip"]]], 0)
+        # Directions come with their opposites, of which one is below the horizon.
+        self.assertEqual(pairs[-1]["on"]["directionsBlack"], pairs[-1]["on"]["level"] / 2)
+
+    def test_stored_textures_are_counted(self):
+        stored = [row for row in self.rows("skips") if "texturesStored" in row]
+        self.assertEqual(len(stored), 1)
+        self.assertTrue(0 < stored[0]["texturesStored"] <= stored[0]["particles"])
+
+    def test_rate_of_rays(self):
+        rows = self.rows("rays")
+        self.assertEqual([row["scene"] for row in rows], ["gas"])
+        self.assert_positive(rows[0], ["rays", "bake_ms", "generate_ms", "bare_ms", "share",
+                                       "ray_rate"])
+
+    def test_equal_error_tells_directions(self):
+        self.rows("error")
+        text = (self.folder / "error.md").read_text(encoding="utf-8")
+        self.assertIn("| directions | s | ratio |", text)
+        for method in ["Sweep", "Embree"]:
+            self.assertIn(f"| gas | {method} |", text.split("## At the RMSE")[1])
+
     def test_report_and_plots_are_written(self):
         self.rows("error")
         self.assertIn("| gas |", (self.folder / "error.md").read_text(encoding="utf-8"))
         if not has_matplotlib():
             self.assertIn("python3-matplotlib", self.done.stdout)
             return
-        for name in ["error.png", "error.svg", "ratio.png", "ratio.svg", "simd.png", "simd.svg"]:
-            self.assertGreater((self.folder / name).stat().st_size, 1000, name)
+        for name in ["error", "ratio", "simd", "skips", "rays"]:
+            for kind in ["png", "svg"]:
+                file = self.folder / f"{name}.{kind}"
+                self.assertGreater(file.stat().st_size, 1000, file.name)
 
 
 class Mistakes(unittest.TestCase):
@@ -92,6 +131,21 @@ class Mistakes(unittest.TestCase):
                                "--level", "16"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("'none'", done.stderr)
+
+    def test_unknown_skip_is_told(self):
+        done = subprocess.run([PROGRAM, "measure", "--scene", "gas", "--method", "Sweep", "--level",
+                               "16", "--without", "none"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("'none'", done.stderr)
+
+    def test_reference_values_of_another_background_are_refused(self):
+        file = SCRIPT.with_name("References") / "heap-T16.ref"
+        data = SCRIPT.parent.parent.parent / "Data" / "heap.vtp"
+        done = subprocess.run([PROGRAM, "measure", "--scene", data, "--background", "half",
+                               "--method", "Sweep", "--level", "16", "--judge", file],
+                              capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("another background", done.stderr)
 
     def test_reference_values_of_other_spheres_are_refused(self):
         file = next(SCRIPT.with_name("References").glob("gas-*.ref"))
@@ -111,21 +165,23 @@ class EqualError(unittest.TestCase):
 
     def test_between_two_levels(self):
         rows = self.rows((1, 1.0, 0.4), (4, 4.0, 0.1))
-        seconds, bound = report.seconds_at_error(rows, 0.2)
-        self.assertAlmostEqual(seconds, 2.0)
-        self.assertEqual(bound, "")
+        found = report.at_error(rows, 0.2)
+        self.assertAlmostEqual(found.cpu_s, 2.0)
+        self.assertAlmostEqual(found.level, 2.0)
+        self.assertEqual(found.bound, "")
 
     def test_coarsest_level_is_good_enough(self):
-        self.assertEqual(report.seconds_at_error(self.rows((1, 1.0, 0.1)), 0.2), (1.0, "at most"))
+        self.assertEqual(report.at_error(self.rows((1, 1.0, 0.1)), 0.2), (1.0, 1, "at most"))
 
     def test_no_level_is_good_enough(self):
-        self.assertIsNone(report.seconds_at_error(self.rows((1, 1.0, 0.4)), 0.2))
+        self.assertIsNone(report.at_error(self.rows((1, 1.0, 0.4)), 0.2))
 
     def test_last_crossing_counts(self):
         rows = self.rows((1, 1.0, 0.4), (2, 2.0, 0.1), (4, 4.0, 0.4), (8, 8.0, 0.1))
-        self.assertAlmostEqual(report.seconds_at_error(rows, 0.2)[0], 4 * math.sqrt(2))
+        self.assertAlmostEqual(report.at_error(rows, 0.2).cpu_s, 4 * math.sqrt(2))
 
 
 if __name__ == "__main__":
     PROGRAM = sys.argv.pop(1)
+    BAKE_PROGRAM = sys.argv.pop(1)
     unittest.main()
