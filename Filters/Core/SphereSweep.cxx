@@ -19,7 +19,12 @@ namespace
 /// Directions between two changes of the points in the texels: each point serves two axes.
 constexpr int EpochDirections = 4 * static_cast<int>(TexelPatterns::Count);
 
-/// After the first block, spheres that were never seen take part in every eighth direction only. A
+constexpr std::size_t FirstBlock = 2; ///< axes
+
+/// All spheres take part in the first directions.
+constexpr int FullDirections = 2 * static_cast<int>(AxesPerBlock);
+
+/// After them, spheres that were never seen take part in every eighth direction only. A
 /// sphere that shows in few directions may miss the others up to its first sight: at most about 8
 /// directions' light, 8 / D of what a direction shows of it.
 constexpr std::size_t FullEvery = AxesPerBlock;
@@ -54,13 +59,20 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
 void SphereSweep::run(
   const std::vector<Vec3d>& axes, Progress& progress, std::optional<std::size_t> subset)
 {
-  for (std::size_t first = 0; first < axes.size() && !progress.aborted(); first += AxesPerBlock)
+  for (std::size_t first = 0; first < axes.size() && !progress.aborted();)
   {
-    const std::size_t last = std::min(first + AxesPerBlock, axes.size());
+    const std::size_t last = std::min(first + blockSize(), axes.size());
     sweepBlock({ axes.begin() + static_cast<std::ptrdiff_t>(first),
                  axes.begin() + static_cast<std::ptrdiff_t>(last) },
       subset.value_or(blocks_ % SweepSubsets), progress);
+    first = last;
   }
+}
+
+/// A small block shows soon whether closed cells are worth their cost.
+std::size_t SphereSweep::blockSize() const
+{
+  return blocks_ == 0 ? FirstBlock : (blocks_ == 1 ? AxesPerBlock - FirstBlock : AxesPerBlock);
 }
 
 void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset, Progress& progress)
@@ -111,8 +123,8 @@ std::size_t SphereSweep::nextPattern()
 
 SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index)
 {
-  const bool full =
-    blocks_ == 0 || index % FullEvery == 0 || std::isfinite(distance_) || !skips_.neverSeen;
+  const bool full = directions_ < FullDirections || index % FullEvery == 0 ||
+    std::isfinite(distance_) || !skips_.neverSeen;
   AxisJob job{ axis, planeBasis(axis), nextPattern(), full, {} };
   for (const bool upward : { true, false })
   {
@@ -162,8 +174,8 @@ void SphereSweep::finishBlock()
     }
   }
   // The first block shows whether closed cells are worth their cost where all spheres take part,
-  // the second where the buried ones are left out already.
-  if (blocks_ <= 2)
+  // the third where the buried ones are left out.
+  if (blocks_ == 1 || blocks_ == 3)
   {
     const bool full = blocks_ == 1;
     const SweepCounters sum = counters(full);

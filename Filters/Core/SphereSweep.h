@@ -79,6 +79,7 @@ private:
     TileSweep sweep;
   };
 
+  [[nodiscard]] std::size_t blockSize() const;
   void sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset, Progress& progress);
   [[nodiscard]] AxisJob makeJob(Vec3d axis, std::size_t index);
   [[nodiscard]] AxisWeights weightsOf(const AxisJob& job) const;
