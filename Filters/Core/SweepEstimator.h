@@ -47,8 +47,8 @@ public:
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const override;
 
-  /// Of particles that are overlapped; others need 7 (see VisibilityRecords).
-  [[nodiscard]] double bytesPerTexel() const override { return 18; }
+  /// Of particles that are overlapped; others need 5 (see VisibilityRecords).
+  [[nodiscard]] double bytesPerTexel() const override { return 13; }
 
   /// Of the last estimate.
   [[nodiscard]] const SweepReport& report() const { return report_; }

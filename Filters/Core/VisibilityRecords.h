@@ -50,7 +50,7 @@ struct OpenWeights
 };
 
 /// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
-/// 16 x 16 texels 1.25 KiB a sphere, and 2.5 KiB more where others overlap it.
+/// 16 x 16 texels 1.25 KiB a sphere, and 1 to 2 KiB more where others overlap it.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
