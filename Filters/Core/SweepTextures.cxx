@@ -151,6 +151,17 @@ void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
   coarsen(fine, sums == nullptr ? dark.data() : sums, fine.weight.data(), values, shares);
 }
 
+void SweepTextures::SquaredError::add(const SquaredError& other)
+{
+  sum += other.sum;
+  area += other.area;
+}
+
+double SweepTextures::SquaredError::rms() const
+{
+  return area > 0 ? std::sqrt(sum / area) : 0;
+}
+
 SweepTextures::SquaredError SweepTextures::squaredError(unsigned sphere) const
 {
   const SweepTexels& texels = records_.texels();
@@ -167,6 +178,9 @@ SweepTextures::SquaredError SweepTextures::squaredError(unsigned sphere) const
   std::vector<float> shares(count);
   std::vector<float> values(SweepSubsets * count);
   std::vector<float> weight(texels.slots());
+  const float* subsetSums = records_.subsetSums(sphere);
+  const std::vector<float> dark(subsetSums == nullptr ? SweepSubsets * texels.slots() : 0, 0.0f);
+  const float* sums = subsetSums == nullptr ? dark.data() : subsetSums;
   for (std::size_t subset = 0; subset < SweepSubsets; ++subset)
   {
     const float* open = records_.openWeights().subsets.data() + subset * texels.slots();
@@ -176,8 +190,8 @@ SweepTextures::SquaredError SweepTextures::squaredError(unsigned sphere) const
       const float total = records_.openWeights().total[slot];
       weight[slot] = total > 0 ? open[slot] * (fine.weight[slot] / total) : 0.0f;
     }
-    coarsen(fine, records_.subsetSums(sphere) + subset * texels.slots(), weight.data(),
-      values.data() + subset * count, shares.data());
+    coarsen(fine, sums + subset * texels.slots(), weight.data(), values.data() + subset * count,
+      shares.data());
   }
   for (std::size_t i = 0; i < count; ++i)
   {

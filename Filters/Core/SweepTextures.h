@@ -31,6 +31,11 @@ public:
   {
     double sum = 0;  ///< weighted by outside area
     double area = 0; ///< the sum of the weights
+
+    void add(const SquaredError& other);
+
+    /// Root of the mean.
+    [[nodiscard]] double rms() const;
   };
   [[nodiscard]] SquaredError squaredError(unsigned sphere) const;
 

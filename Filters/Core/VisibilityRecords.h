@@ -50,7 +50,8 @@ struct OpenWeights
 };
 
 /// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
-/// 16 x 16 texels 1.25 KiB a sphere, and 2.5 KiB more where others overlap it.
+/// 16 x 16 texels 1.25 KiB a sphere, 2.5 KiB more where others overlap it, and 4 KiB more where it
+/// is watched and seen.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
@@ -86,7 +87,7 @@ public:
 
   /// [slots] weights of the directions that are seen; null for a sphere that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
-  /// [SweepSubsets][slots], of a watched sphere.
+  /// [SweepSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
   /// What overlaps a sphere that was seen; null if nothing does.
   [[nodiscard]] const CutSphere* cut(unsigned sphere) const;
@@ -124,12 +125,14 @@ private:
     std::unique_ptr<GroupMask[]> masks; ///< [AxesPerBlock][ChunkSpheres][groups] where seen
     std::array<std::array<std::uint8_t, ChunkSpheres>, AxesPerBlock> seen{};
     std::array<std::uint8_t, ChunkSpheres> everSeen{};
+    std::array<std::unique_ptr<float[]>, ChunkSpheres> subsets; ///< of watched spheres ever seen
   };
 
   [[nodiscard]] Surface surfaceOf(unsigned sphere);
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
   Chunk& findOrMakeChunk(unsigned sphere);
   void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
+  [[nodiscard]] const Chunk* chunkIfSeen(unsigned sphere) const;
 
   const BakeScene& scene_;
   const SweepScene& order_;
@@ -142,8 +145,7 @@ private:
   std::vector<std::atomic<CutSphere*>> cuts_; ///< by sphere
   std::vector<std::atomic<Chunk*>> chunks_;   ///< by sphere / ChunkSpheres
   tbb::concurrent_vector<std::unique_ptr<CutSphere>> ownedCuts_;
-  std::vector<int> watched_; ///< by sphere: place in subsetSums_, or -1
-  std::vector<std::vector<float>> subsetSums_;
+  std::vector<std::uint8_t> watched_; ///< flags by sphere
 };
 }
 
