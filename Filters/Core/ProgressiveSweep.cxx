@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace po
@@ -14,6 +15,7 @@ namespace po
 namespace
 {
 constexpr std::size_t WatchedParticles = 256;
+constexpr float Unbounded = std::numeric_limits<float>::infinity();
 
 std::vector<std::uint8_t> listedFlags(
   const SweepScene& order, const std::vector<unsigned>& particles)
@@ -71,7 +73,29 @@ float localDistance(const BakeScene& scene, const BakeSettings& settings)
 {
   return settings.maximumDistance > 0
     ? static_cast<float>(settings.maximumDistance / scene.cloud.scale)
-    : std::numeric_limits<float>::infinity();
+    : Unbounded;
+}
+
+/// Flags, by index in the order, of the spheres outside the distance of any other. Where rounding
+/// might matter a sphere is not alone.
+std::vector<std::uint8_t> aloneFlags(
+  const BakeScene& scene, const SweepScene& order, float distance)
+{
+  std::vector<std::uint8_t> flags(order.size(), 0);
+  if (!std::isfinite(distance))
+  {
+    return flags;
+  }
+  float largest = 0;
+  for (const SweepScene::Band& band : order.bands())
+  {
+    largest = std::max(largest, band.largestRadius);
+  }
+  const float reach = distance + 1e-5f * (distance + largest);
+  tbb::parallel_for(std::size_t(0), flags.size(),
+    [&](std::size_t i)
+    { flags[i] = scene.overlaps.hasNear(order.source(static_cast<unsigned>(i)), reach) ? 0 : 1; });
+  return flags;
 }
 }
 
@@ -82,8 +106,10 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   , order_(scene.rays.spheres())
   , texels_(settings.textureResolution)
   , watched_(watchedSpheres(order_, particles_, settings.seed, watch))
-  , records_(scene, order_, texels_, settings.seed, listedFlags(order_, particles_), watched_)
-  , sweep_(order_, settings.background, localDistance(scene, settings), records_, skips)
+  , alone_(aloneFlags(scene, order_, skips.lonely ? localDistance(scene, settings) : Unbounded))
+  , records_(
+      scene, order_, texels_, settings.seed, listedFlags(order_, particles_), alone_, watched_)
+  , sweep_(order_, settings.background, localDistance(scene, settings), records_, skips, alone_)
 {
 }
 
@@ -157,6 +183,7 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
   counters.particles += particles_.size();
   counters.texels += particles_.size() * texels;
   counters.particlesBuried += records_.buried();
+  counters.particlesAlone += records_.alone();
   counters.spheresClosed += swept.closed + swept.below;
   counters.spheresNeverSeen += sweep_.neverSeen();
   counters.directionsBlack += static_cast<std::uint64_t>(sweep_.blackDirections());

@@ -63,8 +63,8 @@ public:
   /// The RMS of these, weighted by area.
   [[nodiscard]] double estimatedError() const;
 
-  /// Work of one direction: all spheres take part, whatever is listed.
-  [[nodiscard]] std::size_t spheres() const { return order_.size(); }
+  /// Work of one direction: the spheres that take part, whatever is listed.
+  [[nodiscard]] std::size_t spheres() const { return sweep_.spheres(); }
 
   /// Hands the textures out in the order of the particles, on the calling thread.
   /// @param replacements take the place of what was swept
@@ -76,7 +76,8 @@ private:
   std::vector<unsigned> particles_;
   SweepScene order_;
   SweepTexels texels_;
-  std::vector<unsigned> watched_; ///< by index in `order_`
+  std::vector<unsigned> watched_;   ///< by index in `order_`
+  std::vector<std::uint8_t> alone_; ///< flags, by index in `order_`
   VisibilityRecords records_;
   SphereSweep sweep_;
   std::uint64_t rounds_ = 0;

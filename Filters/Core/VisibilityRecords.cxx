@@ -24,7 +24,7 @@ bool isSliver(const BuriedCap& cap)
 
 VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& order,
   const SweepTexels& texels, std::uint64_t seed, const std::vector<std::uint8_t>& listed,
-  const std::vector<unsigned>& watched)
+  const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched)
   : scene_(scene)
   , order_(order)
   , texels_(texels)
@@ -41,7 +41,8 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   for (std::size_t sphere = 0; sphere < listed.size(); ++sphere)
   {
-    surface_[sphere] = listed[sphere] != 0 ? Surface::Unknown : Surface::NotListed;
+    const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
+    surface_[sphere] = listed[sphere] != 0 ? known : Surface::NotListed;
   }
   for (const unsigned sphere : watched)
   {
@@ -237,12 +238,20 @@ const VisibilityRecords::Chunk* VisibilityRecords::chunkIfSeen(unsigned sphere) 
 
 const float* VisibilityRecords::sums(unsigned sphere) const
 {
+  if (isAlone(sphere))
+  {
+    return open_.total.data();
+  }
   const Chunk* chunk = chunkIfSeen(sphere);
   return chunk != nullptr ? chunk->sums.get() + sphere % ChunkSpheres * texels_.slots() : nullptr;
 }
 
 const float* VisibilityRecords::subsetSums(unsigned sphere) const
 {
+  if (isAlone(sphere))
+  {
+    return open_.subsets.data();
+  }
   const Chunk* chunk = chunkIfSeen(sphere);
   return chunk != nullptr ? chunk->subsets[sphere % ChunkSpheres].get() : nullptr;
 }
@@ -274,6 +283,16 @@ std::vector<float> VisibilityRecords::outsideWeights(const CutSphere& cut) const
 bool VisibilityRecords::isBuried(unsigned sphere) const
 {
   return surface_[sphere].load(std::memory_order_acquire) == Surface::Buried;
+}
+
+bool VisibilityRecords::isAlone(unsigned sphere) const
+{
+  return surface_[sphere].load(std::memory_order_relaxed) == Surface::Alone;
+}
+
+std::uint64_t VisibilityRecords::alone() const
+{
+  return static_cast<std::uint64_t>(std::count(surface_.begin(), surface_.end(), Surface::Alone));
 }
 
 std::uint64_t VisibilityRecords::buried() const

@@ -59,10 +59,11 @@ class VisibilityRecords
 {
 public:
   /// @param listed flags by sphere: whose visibility is asked for; others only occlude
+  /// @param alone flags by sphere: known to be open all over
   /// @param watched the spheres that error bars come from
   VisibilityRecords(const BakeScene& scene, const SweepScene& order, const SweepTexels& texels,
     std::uint64_t seed, const std::vector<std::uint8_t>& listed,
-    const std::vector<unsigned>& watched);
+    const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched);
   ~VisibilityRecords();
   VisibilityRecords(const VisibilityRecords&) = delete;
   VisibilityRecords& operator=(const VisibilityRecords&) = delete;
@@ -103,6 +104,8 @@ public:
   void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
 
   [[nodiscard]] std::uint64_t buried() const;
+  /// Of the listed ones.
+  [[nodiscard]] std::uint64_t alone() const;
 
 private:
   /// What is known of a sphere's surface.
@@ -112,6 +115,7 @@ private:
     Whole, ///< no part is inside others
     Cut,
     Buried,
+    Alone, ///< open all over, not swept
     NotListed
   };
 
@@ -132,6 +136,7 @@ private:
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
   Chunk& findOrMakeChunk(unsigned sphere);
   void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
+  [[nodiscard]] bool isAlone(unsigned sphere) const;
   [[nodiscard]] const Chunk* chunkIfSeen(unsigned sphere) const;
 
   const BakeScene& scene_;

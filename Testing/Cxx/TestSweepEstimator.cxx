@@ -395,6 +395,48 @@ TEST(SweepEstimator, HasNoBias)
   }
 }
 
+TEST(SweepEstimator, WhatIsAloneWithinTheMaximumDistanceChangesNothing)
+{
+  // A cloud, lone particles about it, one occluder alone and one that just reaches a particle.
+  std::vector<po::Sphere> spheres = mixedScene();
+  for (int i = 0; i < 10; ++i)
+  {
+    spheres.push_back(
+      { 20 + 5.0f * static_cast<float>(i), 3, -2, 0.3f + 0.1f * static_cast<float>(i) });
+  }
+  const po::SphereCloud cloud = cloudOf(spheres);
+  po::Occluders occluders;
+  const std::vector<po::Sphere> casters{ { -50, 0, 0, 1 }, { 20, 3, -0.75f, 0.5f } };
+  occluders.spheres = po::makeSphereCloudLike(
+    cloud, casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
+    [&](std::size_t i) {
+      return static_cast<double>(casters[i].radius);
+    }).spheres;
+  const po::BakeScene scene(cloud, occluders);
+  po::BakeSettings settings = floatSettings(8, 49);
+  settings.maximumDistance = 0.5;
+  for (const po::Background& background : { po::Background(po::UniformBackground{}),
+         po::Background(po::GradientBackground{ { 1, 1, 0 }, 0.1, 1 }) })
+  {
+    settings.background = background;
+    po::SweepOptions options;
+    po::BakeCounters skipped;
+    const Estimates with = estimateAll(po::SweepEstimator(options), scene, settings, &skipped);
+    options.skips.lonely = false;
+    po::BakeCounters all;
+    const Estimates without = estimateAll(po::SweepEstimator(options), scene, settings, &all);
+    EXPECT_EQ(with.values, without.values);
+    EXPECT_EQ(with.shares, without.shares);
+    EXPECT_GE(skipped.particlesAlone, 9u); // some of the cloud too
+    EXPECT_LT(skipped.particlesAlone, 40u);
+    EXPECT_EQ(all.particlesAlone, 0u);
+  }
+  settings.maximumDistance = 0;
+  po::BakeCounters unbounded;
+  (void)estimateAll(po::SweepEstimator(), scene, settings, &unbounded);
+  EXPECT_EQ(unbounded.particlesAlone, 0u);
+}
+
 TEST(SweepEstimator, AbortsWithinASecond)
 {
   std::vector<po::Sphere> spheres;
