@@ -3,6 +3,7 @@
 
 #include "Random.h"
 #include "SweepDirections.h"
+#include "SweepTextures.h"
 
 #include <tbb/parallel_for.h>
 
@@ -115,7 +116,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
 
 void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
 {
-  const std::size_t sets = spread == Spread::Evenly ? 1 : SweepSubsets;
+  const std::size_t sets = spread == Spread::Evenly ? 1 : ErrorSubsets;
   const int perSet = 2 * static_cast<int>(sets);
   const int axes = (directions + perSet - 1) / perSet;
   progress.begin(2 * sets * static_cast<std::uint64_t>(axes) * order_.size());
@@ -133,10 +134,10 @@ int ProgressiveSweep::directions() const
   return sweep_.directions() - sweep_.blackDirections();
 }
 
-std::vector<SweepTextures::SquaredError> ProgressiveSweep::squaredErrors() const
+std::vector<SquaredError> ProgressiveSweep::squaredErrors() const
 {
   const SweepTextures textures(records_, settings_.background);
-  std::vector<SweepTextures::SquaredError> errors(watched_.size());
+  std::vector<SquaredError> errors(watched_.size());
   tbb::parallel_for(std::size_t(0), watched_.size(),
     [&](std::size_t i) { errors[i] = textures.squaredError(watched_[i]); });
   return errors;
@@ -144,8 +145,8 @@ std::vector<SweepTextures::SquaredError> ProgressiveSweep::squaredErrors() const
 
 double ProgressiveSweep::estimatedError() const
 {
-  SweepTextures::SquaredError all;
-  for (const SweepTextures::SquaredError& error : squaredErrors())
+  SquaredError all;
+  for (const SquaredError& error : squaredErrors())
   {
     all.add(error);
   }

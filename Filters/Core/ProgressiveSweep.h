@@ -6,7 +6,7 @@
 #include "SphereSweep.h"
 #include "SweepScene.h"
 #include "SweepTexels.h"
-#include "SweepTextures.h"
+#include "TextureFormula.h"
 #include "VisibilityRecords.h"
 
 #include <vector>
@@ -58,7 +58,7 @@ public:
   /// watched particles, with Watch::All in the order of the list. Subsets of one lattice complement
   /// each other: with Spread::Evenly the estimate is too large, up to twice where much is hidden. 0
   /// where a subset is still empty.
-  [[nodiscard]] std::vector<SweepTextures::SquaredError> squaredErrors() const;
+  [[nodiscard]] std::vector<SquaredError> squaredErrors() const;
 
   /// The RMS of these, weighted by area.
   [[nodiscard]] double estimatedError() const;

@@ -66,7 +66,7 @@ void SphereSweep::run(
     const std::size_t last = std::min(first + AxesPerBlock, axes.size());
     sweepBlock({ axes.begin() + static_cast<std::ptrdiff_t>(first),
                  axes.begin() + static_cast<std::ptrdiff_t>(last) },
-      subset.value_or(blocks_ % SweepSubsets), progress);
+      subset.value_or(blocks_ % ErrorSubsets), progress);
   }
 }
 

@@ -36,7 +36,7 @@ public:
 
   /// Goes on with more axes: the directions along them and their opposites. Returns early when
   /// `progress` says so. A unit of progress is one sphere in one direction.
-  /// @param subset that they count for, of SweepSubsets; by default the blocks take turns
+  /// @param subset that they count for, of ErrorSubsets; by default the blocks take turns
   void run(const std::vector<Vec3d>& axes, Progress& progress,
     std::optional<std::size_t> subset = std::nullopt);
 

@@ -90,8 +90,8 @@ private:
 
   void judge()
   {
-    SweepTextures::SquaredError all;
-    for (const SweepTextures::SquaredError& error : errors_)
+    SquaredError all;
+    for (const SquaredError& error : errors_)
     {
       all.add(error);
     }
@@ -104,7 +104,7 @@ private:
   [[nodiscard]] bool raysAreCheaper(int done, int more) const
   {
     double needed = 0;
-    for (const SweepTextures::SquaredError& error : errors_)
+    for (const SquaredError& error : errors_)
     {
       const double factor = excess(error.rms());
       if (factor > 1)
@@ -143,7 +143,7 @@ private:
     report_.refined = particles.size();
     for (const std::size_t place : refined_.places)
     {
-      SweepTextures::SquaredError& error = errors_[place];
+      SquaredError& error = errors_[place];
       error.sum = error.area * embree.report().estimatedError * embree.report().estimatedError;
     }
   }
@@ -162,7 +162,7 @@ private:
   const SweepOptions& options_;
   Progress& progress_;
   ProgressiveSweep sweep_;
-  std::vector<SweepTextures::SquaredError> errors_; ///< in the order of the list
+  std::vector<SquaredError> errors_; ///< in the order of the list
   TextureReplacements refined_;
   SweepReport report_;
 };

@@ -36,7 +36,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , watched_(order.size(), 0)
 {
   open_.total.assign(texels.slots(), 0.0f);
-  open_.subsets.assign(SweepSubsets * texels.slots(), 0.0f);
+  open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
   open_.pastPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   for (std::size_t sphere = 0; sphere < listed.size(); ++sphere)
@@ -195,7 +195,7 @@ void VisibilityRecords::addChunk(
       std::unique_ptr<float[]>& sums = chunk.subsets[place];
       if (!sums)
       {
-        sums = std::make_unique<float[]>(SweepSubsets * texels_.slots());
+        sums = std::make_unique<float[]>(ErrorSubsets * texels_.slots());
       }
       addMasked(groups, terms.data(), count, sums.get() + subset * texels_.slots());
     }

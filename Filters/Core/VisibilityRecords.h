@@ -6,6 +6,7 @@
 #include "SweepScene.h"
 #include "SweepTexels.h"
 #include "TexelExposure.h"
+#include "TextureFormula.h"
 
 #include <tbb/concurrent_vector.h>
 
@@ -19,9 +20,6 @@ namespace po
 /// Axes, of two opposite directions each, are swept in blocks of this many: in parallel, their
 /// masks kept, then summed in order.
 inline constexpr std::size_t AxesPerBlock = 8;
-
-/// Interleaved subsets of blocks whose spread is the error bar.
-inline constexpr std::size_t SweepSubsets = 4;
 
 /// What a sweep needs to know of a sphere that others overlap.
 struct CutSphere
@@ -44,7 +42,7 @@ struct AxisWeights
 struct OpenWeights
 {
   std::vector<float> total;          ///< [slots], summed in the order of the directions
-  std::vector<float> subsets;        ///< [SweepSubsets][slots]
+  std::vector<float> subsets;        ///< [ErrorSubsets][slots]
   std::vector<float> pastPatterns;   ///< in the order of TexelPatterns, ended epochs
   std::vector<float> latestPatterns; ///< in the order of TexelPatterns, this epoch
 };
@@ -88,7 +86,7 @@ public:
 
   /// [slots] weights of the directions that are seen; null for a sphere that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
-  /// [SweepSubsets][slots], of a watched sphere; null for one that was never seen.
+  /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
   /// What overlaps a sphere that was seen; null if nothing does.
   [[nodiscard]] const CutSphere* cut(unsigned sphere) const;
@@ -98,10 +96,6 @@ public:
   /// The weights of the points of a cut sphere that are outside, [slots]: what an open texel sums
   /// to.
   [[nodiscard]] std::vector<float> outsideWeights(const CutSphere& cut) const;
-
-  /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
-  /// to sums [rimGroups][GroupSize].
-  void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
 
   [[nodiscard]] std::uint64_t buried() const;
   /// Of the listed ones.
@@ -134,6 +128,9 @@ private:
 
   [[nodiscard]] Surface surfaceOf(unsigned sphere);
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
+  /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
+  /// to sums [rimGroups][GroupSize].
+  void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
   Chunk& findOrMakeChunk(unsigned sphere);
   void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
   [[nodiscard]] bool isAlone(unsigned sphere) const;
