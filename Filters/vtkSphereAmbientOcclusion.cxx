@@ -105,7 +105,7 @@ double sceneMemory(const po::SphereCloud& cloud, const po::Occluders& occluders,
 
 /// Sweep is the fastest one for whole sets, wherever its memory is there, but knows spheres only.
 int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& occluders,
-  const po::BakeSettings& settings)
+  const po::BakeSettings& settings, const po::SweepOptions& sweep)
 {
   const bool triangles = !occluders.mesh.triangles.empty();
   if (method == vtkSphereAmbientOcclusion::Sweep && triangles)
@@ -117,8 +117,8 @@ int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& 
   {
     return method;
   }
-  const bool fits =
-    !triangles && sceneMemory(cloud, occluders, settings, po::SweepEstimator()) <= freeMemory();
+  const bool fits = !triangles &&
+    sceneMemory(cloud, occluders, settings, po::SweepEstimator(sweep)) <= freeMemory();
   return fits ? vtkSphereAmbientOcclusion::Sweep : vtkSphereAmbientOcclusion::Embree;
 }
 }
@@ -131,6 +131,7 @@ struct vtkSphereAmbientOcclusion::Internals
   std::size_t TextureBytes = 0;
   int Method = Automatic; ///< the one that was used
   int Directions = 0;
+  std::size_t Refined = 0;
   int SamplesUsed = 0;
   double EstimatedError = 0;
   double Seconds = 0;
@@ -139,6 +140,7 @@ struct vtkSphereAmbientOcclusion::Internals
   static po::BakeSettings ReadSettings(vtkSphereAmbientOcclusion* self);
   static po::Background ReadBackground(vtkSphereAmbientOcclusion* self);
   static po::RadiusSettings ReadRadius(vtkSphereAmbientOcclusion* self);
+  static po::SweepOptions SweepOptions(vtkSphereAmbientOcclusion* self);
 
   po::OcclusionParameters Describe(vtkSphereAmbientOcclusion* self,
     const po::BakeSettings& settings, const po::EncodedTable& table,
@@ -223,6 +225,13 @@ po::RadiusSettings vtkSphereAmbientOcclusion::Internals::ReadRadius(vtkSphereAmb
   return { self->RadiusArray ? self->RadiusArray : "", self->RadiusScale, self->ConstantRadius };
 }
 
+po::SweepOptions vtkSphereAmbientOcclusion::Internals::SweepOptions(vtkSphereAmbientOcclusion* self)
+{
+  po::SweepOptions options;
+  options.targetError = self->TargetError;
+  return options;
+}
+
 po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
   vtkSphereAmbientOcclusion* self, const po::BakeSettings& settings, const po::EncodedTable& table,
   const po::Occluders& occluders) const
@@ -262,6 +271,7 @@ po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
   parameters.set("directions", this->Directions);
   parameters.set("occluderTriangles", static_cast<long long>(occluders.mesh.triangles.size()));
   parameters.set("occluderSpheres", static_cast<long long>(occluders.spheres.size()));
+  parameters.set("refinedParticles", static_cast<long long>(this->Refined));
   return parameters;
 }
 
@@ -299,7 +309,7 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   const po::SphereCloud cloud = ReadParticles(self, blocks);
   this->LeftOut = cloud.rejected.total();
   const po::Occluders occluders = ReadOccluders(self, occluderData, cloud);
-  this->Method = chooseMethod(self->Method, cloud, occluders, settings);
+  this->Method = chooseMethod(self->Method, cloud, occluders, settings, SweepOptions(self));
   const po::BakeResult result = this->BakeByMethod(self, cloud, occluders, settings);
   if (result.aborted)
   {
@@ -334,14 +344,13 @@ po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByMethod(vtkSphereAmbie
 po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeBySweep(vtkSphereAmbientOcclusion* self,
   const po::SphereCloud& cloud, const po::Occluders& occluders, const po::BakeSettings& settings)
 {
-  po::SweepOptions options;
-  options.targetError = self->TargetError;
-  const po::SweepEstimator sweep(options);
+  const po::SweepEstimator sweep(Internals::SweepOptions(self));
   requireMemory(sceneMemory(cloud, occluders, settings, sweep), cloud.spheres.size());
   po::Progress progress(reportTo(self));
   po::BakeResult result =
     po::bakeOcclusion(po::BakeScene(cloud, occluders), settings, sweep, progress);
   this->Directions = sweep.report().directions;
+  this->Refined = sweep.report().refined;
   this->EstimatedError = sweep.report().estimatedError;
   return result;
 }
@@ -510,6 +519,11 @@ const char* vtkSphereAmbientOcclusion::GetMethodUsed()
 int vtkSphereAmbientOcclusion::GetNumberOfDirections()
 {
   return this->Impl->Directions;
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesRefined()
+{
+  return static_cast<vtkIdType>(this->Impl->Refined);
 }
 
 int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()

@@ -99,8 +99,8 @@ public:
   /**
    * RMS error of linear visibility to reach, area-weighted over the set; 0 [default] = off. When
    * set, it takes the place of SamplesPerTexel: Sweep adds directions until the spread of subsets
-   * of them says that it is reached, Embree does so for every particle by itself, Reference finds
-   * the number of rays by a pilot bake. At most 1.
+   * of them says that it is reached, or leaves the few particles above it to rays; Embree does so
+   * for every particle by itself, Reference finds the number of rays by a pilot bake. At most 1.
    */
   vtkSetMacro(TargetError, double);
   vtkGetMacro(TargetError, double);
@@ -211,6 +211,7 @@ public:
   vtkIdType GetNumberOfParticlesLeftOut(); ///< no usable position or radius
   vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
   vtkIdType GetNumberOfTextureBytes();     ///< size of the table
+  vtkIdType GetNumberOfParticlesRefined(); ///< by rays: of Sweep with TargetError
   const char* GetMethodUsed();             ///< what Automatic chose
   int GetNumberOfDirections();  ///< of Sweep or Embree (the most of a particle), 0 otherwise
   int GetNumberOfThreads();     ///< threads that took part

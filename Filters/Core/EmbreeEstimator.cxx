@@ -45,7 +45,7 @@ struct ParticleWork
   }
 
   TexelSums sums;
-  SumTextures::SquaredError error;
+  SquaredError error;
   bool finished = false;
 };
 
@@ -115,7 +115,7 @@ public:
     , progress_(progress)
     , texels_(settings.textureResolution)
     , sets_(texels_, settings.background, settings.seed, chooseAxes(options, settings))
-    , textures_(texels_, sets_.get(0).directions.patterns(), settings.background)
+    , formula_(texels_, sets_.get(0).directions.patterns(), settings.background)
     , watched_(chooseWatched(particles.size(), settings.seed))
     , workspaces_(
         [this]
@@ -209,7 +209,7 @@ private:
     look(particles_[first + place], set == 0, directions.directions, work.sums, workspace);
     if (work.sums.hasSubsets())
     {
-      work.error = textures_.squaredError(work.sums, directions.open);
+      work.error = squaredError(formula_, work.sums, directions.open);
     }
     work.finished = work.sums.buried || set + 1 == sets_.size() ||
       (targetError_ > 0 && work.error.rms() <= targetError_);
@@ -224,7 +224,7 @@ private:
   {
     const std::size_t texels = texelsOfTexture();
     float* shares = shares_.data() + place * texels;
-    textures_.fill(work.sums, open, values_.data() + place * texels, shares);
+    fillTexture(formula_, work.sums, open, values_.data() + place * texels, shares);
     BakeCounters& counters = workspace.counters;
     ++counters.particles;
     counters.texels += texels;
@@ -249,8 +249,7 @@ private:
       exposure = exposeTexels(texels_, set.patterns(), work.overlaps.caps);
       if (firstSet)
       {
-        sums.makeCut();
-        textures_.measureCut(exposure, sums);
+        sums.makeCut(formula_.cut(exposure));
       }
     }
     work.view.begin(id);
@@ -305,8 +304,7 @@ private:
   {
     for (const ParticleWork& work : works)
     {
-      error_.sum += work.error.sum;
-      error_.area += work.error.area;
+      error_.add(work.error);
       above_ += targetError_ > 0 && work.error.rms() > targetError_;
     }
   }
@@ -319,7 +317,7 @@ private:
   Progress& progress_;
   SweepTexels texels_;
   DirectionSets sets_;
-  SumTextures textures_;
+  TextureFormula formula_;
   std::vector<std::uint8_t> watched_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   std::vector<float> values_; ///< of the chunk at hand
@@ -328,7 +326,7 @@ private:
   std::size_t directions_ = 0;
   std::size_t black_ = 0;
   std::size_t above_ = 0; ///< particles that did not reach the target
-  SumTextures::SquaredError error_;
+  SquaredError error_;
 };
 }
 

@@ -133,6 +133,7 @@ void BakeCounters::add(const BakeCounters& other)
   samplesInside += other.samplesInside;
   texelsInside += other.texelsInside;
   particlesBuried += other.particlesBuried;
+  particlesAlone += other.particlesAlone;
   particlesDark += other.particlesDark;
   texturesStored += other.texturesStored;
   spheresClosed += other.spheresClosed;

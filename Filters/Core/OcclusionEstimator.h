@@ -41,6 +41,7 @@ struct BakeCounters
   std::uint64_t samplesInside = 0;    ///< samples inside another sphere: no ray, no weight
   std::uint64_t texelsInside = 0;     ///< texels wholly inside another sphere: not sampled at all
   std::uint64_t particlesBuried = 0;  ///< particles inside one other sphere: not looked at further
+  std::uint64_t particlesAlone = 0;   ///< sweep: nothing within the bounded distance, so open
   std::uint64_t particlesDark = 0;    ///< particles that no light reaches
   std::uint64_t texturesStored = 0;   ///< rows of the table
   std::uint64_t spheresClosed = 0;    ///< sweep: visits spared by closed cells

@@ -73,6 +73,23 @@ bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
   return false; // the radius of the query did not change
 }
 
+float gapBetween(const Sphere& a, const Sphere& b)
+{
+  return length(b.center() - a.center()) - a.radius - b.radius;
+}
+
+/// Rounding must not lose a box that just comes within the radius.
+RTCPointQuery queryAround(const Sphere& sphere, float radius)
+{
+  RTCPointQuery point;
+  point.x = sphere.x;
+  point.y = sphere.y;
+  point.z = sphere.z;
+  point.time = 0;
+  point.radius = radius * (1 + 4 * std::numeric_limits<float>::epsilon());
+  return point;
+}
+
 struct NearQuery
 {
   const Sphere* spheres;
@@ -88,8 +105,7 @@ bool visitNear(RTCPointQueryFunctionArguments* arguments)
   const auto* query = static_cast<const NearQuery*>(arguments->userPtr);
   const Sphere& self = query->spheres[query->id];
   const Sphere& other = query->spheres[arguments->primID];
-  const Neighbour found{ arguments->primID,
-    length(other.center() - self.center()) - self.radius - other.radius };
+  const Neighbour found{ arguments->primID, gapBetween(self, other) };
   std::vector<Neighbour>& nearest = *query->nearest;
   const bool full = nearest.size() == query->limit;
   if (found.id == query->id || found.gap > query->reach || (full && !(found < nearest.front())))
@@ -104,6 +120,27 @@ bool visitNear(RTCPointQueryFunctionArguments* arguments)
   nearest.push_back(found);
   std::push_heap(nearest.begin(), nearest.end());
   return false;
+}
+
+struct AnyQuery
+{
+  const Sphere* spheres;
+  unsigned id;
+  float reach;
+  bool found;
+};
+
+bool visitAny(RTCPointQueryFunctionArguments* arguments)
+{
+  auto* query = static_cast<AnyQuery*>(arguments->userPtr);
+  if (query->found || arguments->primID == query->id ||
+    gapBetween(query->spheres[query->id], query->spheres[arguments->primID]) > query->reach)
+  {
+    return false;
+  }
+  query->found = true;
+  arguments->query->radius = 0; // there is nothing more to look for
+  return true;
 }
 }
 
@@ -130,31 +167,33 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
   result.caps.clear();
   const Sphere& self = (*spheres_)[id];
   Query query{ spheres_->data(), id, &result };
-  RTCPointQuery point;
-  point.x = self.x;
-  point.y = self.y;
-  point.z = self.z;
-  point.time = 0;
-  point.radius = self.radius * (1 + 4 * std::numeric_limits<float>::epsilon());
+  RTCPointQuery point = queryAround(self, self.radius);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(scene_.get(), &point, &context, visitNeighbour, &query);
 }
+
 void OverlapFinder::findNear(
   unsigned id, float reach, std::size_t limit, std::vector<Neighbour>& result) const
 {
   result.clear();
   const Sphere& self = (*spheres_)[id];
   NearQuery query{ spheres_->data(), id, reach, limit, &result };
-  RTCPointQuery point;
-  point.x = self.x;
-  point.y = self.y;
-  point.z = self.z;
-  point.time = 0;
-  point.radius = (self.radius + reach) * (1 + 4 * std::numeric_limits<float>::epsilon());
+  RTCPointQuery point = queryAround(self, self.radius + reach);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(scene_.get(), &point, &context, visitNear, &query);
   std::sort_heap(result.begin(), result.end());
+}
+
+bool OverlapFinder::hasNear(unsigned id, float reach) const
+{
+  const Sphere& self = (*spheres_)[id];
+  AnyQuery query{ spheres_->data(), id, reach, false };
+  RTCPointQuery point = queryAround(self, self.radius + reach);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene_.get(), &point, &context, visitAny, &query);
+  return query.found;
 }
 }

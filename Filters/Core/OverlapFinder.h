@@ -56,6 +56,9 @@ public:
   /// the `limit` nearest, so that a full result may be incomplete. `result` keeps its memory.
   void findNear(unsigned id, float reach, std::size_t limit, std::vector<Neighbour>& result) const;
 
+  /// Does the surface of any other sphere come within `reach` of that of sphere `id`?
+  [[nodiscard]] bool hasNear(unsigned id, float reach) const;
+
 private:
   const std::vector<Sphere>* spheres_;
   DeviceHandle device_;

@@ -16,6 +16,7 @@ namespace po
 namespace
 {
 constexpr std::size_t WatchedParticles = 256;
+constexpr float Unbounded = std::numeric_limits<float>::infinity();
 
 std::vector<std::uint8_t> listedFlags(
   const SweepScene& order, const std::vector<unsigned>& particles)
@@ -28,9 +29,8 @@ std::vector<std::uint8_t> listedFlags(
   return flags;
 }
 
-/// Up to 256 particles of the list, drawn by the seed, by their index in the order.
-std::vector<unsigned> watchedSpheres(
-  const SweepScene& order, std::vector<unsigned> particles, std::uint64_t seed)
+/// Up to 256 of the particles, drawn by the seed.
+void drawWatched(std::vector<unsigned>& particles, std::uint64_t seed)
 {
   const std::size_t count = std::min(particles.size(), WatchedParticles);
   Random random(seed, particles.size(), 0);
@@ -40,34 +40,83 @@ std::vector<unsigned> watchedSpheres(
     std::swap(particles[i], particles[i + random.below(left)]);
   }
   particles.resize(count);
+}
+
+/// Watched particles by their index in the order.
+std::vector<unsigned> watchedSpheres(const SweepScene& order, std::vector<unsigned> particles,
+  std::uint64_t seed, ProgressiveSweep::Watch watch)
+{
+  if (watch == ProgressiveSweep::Watch::Some)
+  {
+    drawWatched(particles, seed);
+  }
   std::transform(particles.begin(), particles.end(), particles.begin(),
     [&order](unsigned particle) { return order.indexOf(particle); });
   return particles;
+}
+
+/// Replaces textures of `count` places of the list from `first` on.
+void replace(const TextureReplacements& by, std::size_t first, std::size_t count,
+  std::vector<float>& values, std::vector<float>& shares)
+{
+  const std::size_t texels = values.size() / count;
+  const auto begin = std::lower_bound(by.places.begin(), by.places.end(), first);
+  for (auto place = begin; place != by.places.end() && *place < first + count; ++place)
+  {
+    const std::size_t from = static_cast<std::size_t>(place - by.places.begin()) * texels;
+    const std::size_t to = (*place - first) * texels;
+    std::copy_n(by.values.data() + from, texels, values.data() + to);
+    std::copy_n(by.shares.data() + from, texels, shares.data() + to);
+  }
 }
 
 float localDistance(const BakeScene& scene, const BakeSettings& settings)
 {
   return settings.maximumDistance > 0
     ? static_cast<float>(settings.maximumDistance / scene.cloud.scale)
-    : std::numeric_limits<float>::infinity();
+    : Unbounded;
+}
+
+/// Flags, by index in the order, of the spheres outside the distance of any other. Where rounding
+/// might matter a sphere is not alone.
+std::vector<std::uint8_t> aloneFlags(
+  const BakeScene& scene, const SweepScene& order, float distance)
+{
+  std::vector<std::uint8_t> flags(order.size(), 0);
+  if (!std::isfinite(distance))
+  {
+    return flags;
+  }
+  float largest = 0;
+  for (const SweepScene::Band& band : order.bands())
+  {
+    largest = std::max(largest, band.largestRadius);
+  }
+  const float reach = distance + 1e-5f * (distance + largest);
+  tbb::parallel_for(std::size_t(0), flags.size(),
+    [&](std::size_t i)
+    { flags[i] = scene.overlaps.hasNear(order.source(static_cast<unsigned>(i)), reach) ? 0 : 1; });
+  return flags;
 }
 }
 
 ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
-  const BakeSettings& settings, const SweepSkips& skips)
+  const BakeSettings& settings, const SweepSkips& skips, Watch watch)
   : settings_(settings)
   , particles_(std::move(particles))
   , order_(scene.rays.spheres())
   , texels_(settings.textureResolution)
-  , watched_(watchedSpheres(order_, particles_, settings.seed))
-  , records_(scene, order_, texels_, settings.seed, listedFlags(order_, particles_), watched_)
-  , sweep_(order_, settings.background, localDistance(scene, settings), records_, skips)
+  , watched_(watchedSpheres(order_, particles_, settings.seed, watch))
+  , alone_(aloneFlags(scene, order_, skips.lonely ? localDistance(scene, settings) : Unbounded))
+  , records_(
+      scene, order_, texels_, settings.seed, listedFlags(order_, particles_), alone_, watched_)
+  , sweep_(order_, settings.background, localDistance(scene, settings), records_, skips, alone_)
 {
 }
 
 void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
 {
-  const std::size_t sets = spread == Spread::Evenly ? 1 : SweepSubsets;
+  const std::size_t sets = spread == Spread::Evenly ? 1 : ErrorSubsets;
   const int perSet = 2 * static_cast<int>(sets);
   const int axes = (directions + perSet - 1) / perSet;
   progress.begin(2 * sets * static_cast<std::uint64_t>(axes) * order_.size());
@@ -85,21 +134,27 @@ int ProgressiveSweep::directions() const
   return sweep_.directions() - sweep_.blackDirections();
 }
 
-double ProgressiveSweep::estimatedError() const
+std::vector<SquaredError> ProgressiveSweep::squaredErrors() const
 {
   const SweepTextures textures(records_, settings_.background);
-  SweepTextures::SquaredError all;
-  for (const unsigned sphere : watched_)
-  {
-    const SweepTextures::SquaredError error = textures.squaredError(sphere);
-    all.sum += error.sum;
-    all.area += error.area;
-  }
-  return all.area > 0 ? std::sqrt(all.sum / all.area) : 0;
+  std::vector<SquaredError> errors(watched_.size());
+  tbb::parallel_for(std::size_t(0), watched_.size(),
+    [&](std::size_t i) { errors[i] = textures.squaredError(watched_[i]); });
+  return errors;
 }
 
-void ProgressiveSweep::handOut(
-  const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters) const
+double ProgressiveSweep::estimatedError() const
+{
+  SquaredError all;
+  for (const SquaredError& error : squaredErrors())
+  {
+    all.add(error);
+  }
+  return all.rms();
+}
+
+void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& progress,
+  BakeCounters& counters, const TextureReplacements& replacements) const
 {
   constexpr std::size_t valuesPerChunk = std::size_t(1) << 22;
   const auto side = static_cast<std::size_t>(settings_.textureResolution);
@@ -119,6 +174,7 @@ void ProgressiveSweep::handOut(
         textures.fill(order_.indexOf(particles_[first + i]), values.data() + i * texels,
           shares.data() + i * texels);
       });
+    replace(replacements, first, count, values, shares);
     counters.texelsInside +=
       static_cast<std::uint64_t>(std::count(shares.begin(), shares.end(), 0.0f));
     sink({ first, count, values.data(), shares.data() });
@@ -128,6 +184,7 @@ void ProgressiveSweep::handOut(
   counters.particles += particles_.size();
   counters.texels += particles_.size() * texels;
   counters.particlesBuried += records_.buried();
+  counters.particlesAlone += records_.alone();
   counters.spheresClosed += swept.closed + swept.below;
   counters.spheresNeverSeen += sweep_.neverSeen();
   counters.directionsBlack += static_cast<std::uint64_t>(sweep_.blackDirections());

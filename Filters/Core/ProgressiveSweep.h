@@ -6,12 +6,21 @@
 #include "SphereSweep.h"
 #include "SweepScene.h"
 #include "SweepTexels.h"
+#include "TextureFormula.h"
 #include "VisibilityRecords.h"
 
 #include <vector>
 
 namespace po
 {
+/// Textures that were found in another way.
+struct TextureReplacements
+{
+  std::vector<std::size_t> places; ///< of their particles in the list, ascending
+  std::vector<float> values;       ///< T * T each
+  std::vector<float> shares;       ///< as many
+};
+
 /// A sweep that goes on for as long as its owner wants: its textures may be handed out after any
 /// number of directions (16 make a preview) and refined later.
 ///
@@ -19,10 +28,17 @@ namespace po
 class ProgressiveSweep
 {
 public:
+  /// The particles that error bars come from.
+  enum class Watch
+  {
+    Some, ///< up to 256 of them, drawn by the seed
+    All   ///< which takes 16 bytes a texel more
+  };
+
   /// @param particles whose textures are wanted, by their index in the cloud; all others occlude.
   /// The scene and the settings must outlive this.
   ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
-    const BakeSettings& settings, const SweepSkips& skips = {});
+    const BakeSettings& settings, const SweepSkips& skips = {}, Watch watch = Watch::Some);
 
   /// How further directions are spread.
   enum class Spread
@@ -38,21 +54,30 @@ public:
   /// Swept so far, without those that the background makes black.
   [[nodiscard]] int directions() const;
 
-  /// RMS error of linear visibility, from the spread of four subsets of the directions over up to
-  /// 256 particles. Subsets of one lattice complement each other: with Spread::Evenly the estimate
-  /// is too large, up to twice where much is hidden. 0 where a subset is still empty.
+  /// Squared errors of linear visibility, from the spread of four subsets of the directions: of the
+  /// watched particles, with Watch::All in the order of the list. Subsets of one lattice complement
+  /// each other: with Spread::Evenly the estimate is too large, up to twice where much is hidden. 0
+  /// where a subset is still empty.
+  [[nodiscard]] std::vector<SquaredError> squaredErrors() const;
+
+  /// The RMS of these, weighted by area.
   [[nodiscard]] double estimatedError() const;
 
+  /// Work of one direction: the spheres that take part, whatever is listed.
+  [[nodiscard]] std::size_t spheres() const { return sweep_.spheres(); }
+
   /// Hands the textures out in the order of the particles, on the calling thread.
-  void handOut(
-    const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters) const;
+  /// @param replacements take the place of what was swept
+  void handOut(const OcclusionEstimator::Sink& sink, Progress& progress, BakeCounters& counters,
+    const TextureReplacements& replacements = {}) const;
 
 private:
   const BakeSettings& settings_;
   std::vector<unsigned> particles_;
   SweepScene order_;
   SweepTexels texels_;
-  std::vector<unsigned> watched_; ///< by index in `order_`
+  std::vector<unsigned> watched_;   ///< by index in `order_`
+  std::vector<std::uint8_t> alone_; ///< flags, by index in `order_`
   VisibilityRecords records_;
   SphereSweep sweep_;
   std::uint64_t rounds_ = 0;

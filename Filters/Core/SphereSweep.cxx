@@ -41,7 +41,7 @@ bool equalRadii(const SweepScene::Band& band)
 }
 
 SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, float distance,
-  VisibilityRecords& records, const SweepSkips& skips)
+  VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone)
   : scene_(scene)
   , background_(background)
   , distance_(distance)
@@ -54,6 +54,13 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   , everSeen_(scene.size())
   , tileSweeps_([&records] { return TileWorkspace(records); })
 {
+  for (unsigned index = 0; index < scene.size(); ++index)
+  {
+    if (alone[index] == 0)
+    {
+      all_.push_back(index);
+    }
+  }
 }
 
 void SphereSweep::run(
@@ -64,7 +71,7 @@ void SphereSweep::run(
     const std::size_t last = std::min(first + blockSize(), axes.size());
     sweepBlock({ axes.begin() + static_cast<std::ptrdiff_t>(first),
                  axes.begin() + static_cast<std::ptrdiff_t>(last) },
-      subset.value_or(blocks_ % SweepSubsets), progress);
+      subset.value_or(blocks_ % ErrorSubsets), progress);
     first = last;
   }
 }
@@ -213,19 +220,10 @@ void SphereSweep::project(const AxisJob& job, std::vector<ProjectedSphere>& proj
       { static_cast<float>(dot(c, job.basis.x)), static_cast<float>(dot(c, job.basis.y)),
         static_cast<float>(dot(c, job.axis)), s.radius, index });
   };
+  const std::vector<unsigned>& partakers = job.full ? all_ : seen_;
   projected.clear();
-  projected.reserve(scene_.size());
-  if (job.full)
-  {
-    for (unsigned index = 0; index < scene_.size(); ++index)
-    {
-      add(index);
-    }
-  }
-  else
-  {
-    std::for_each(seen_.begin(), seen_.end(), add);
-  }
+  projected.reserve(partakers.size());
+  std::for_each(partakers.begin(), partakers.end(), add);
 }
 
 void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const

@@ -22,6 +22,7 @@ struct SweepSkips
   bool neverSeen = true;   ///< spheres that no direction has shown, in seven of eight directions
   bool offsetMasks = true; ///< tests of equal spheres against each other
   bool blackSky = true;    ///< directions that the background makes black
+  bool lonely = true;      ///< spheres outside the bounded distance of any other
 };
 
 /// Sweeps a scene along given directions and sums what is seen in records.
@@ -29,18 +30,21 @@ class SphereSweep
 {
 public:
   /// @param distance light is blocked within it: local, infinite when unbounded
+  /// @param alone flags by sphere: those that take no part
   SphereSweep(const SweepScene& scene, const Background& background, float distance,
-    VisibilityRecords& records, const SweepSkips& skips);
+    VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone);
 
   /// Goes on with more axes: the directions along them and their opposites. Returns early when
   /// `progress` says so. A unit of progress is one sphere in one direction.
-  /// @param subset that they count for, of SweepSubsets; by default the blocks take turns
+  /// @param subset that they count for, of ErrorSubsets; by default the blocks take turns
   void run(const std::vector<Vec3d>& axes, Progress& progress,
     std::optional<std::size_t> subset = std::nullopt);
 
   /// Directions so far, those that the background makes black included.
   [[nodiscard]] int directions() const { return directions_; }
   [[nodiscard]] SweepCounters counters() const;
+  /// Those that take part.
+  [[nodiscard]] std::size_t spheres() const { return all_.size(); }
   /// Spheres left out since no direction had shown them, summed over the directions.
   [[nodiscard]] std::uint64_t neverSeen() const { return neverSeen_; }
   /// Directions not swept since the background is black there.
@@ -100,6 +104,7 @@ private:
   bool useOffsetMasks_;
   std::array<bool, 2> closedCellsPay_; ///< where only spheres ever seen take part, where all do
   std::vector<std::atomic<std::uint8_t>> everSeen_;
+  std::vector<unsigned> all_;  ///< the spheres that take part
   std::vector<unsigned> seen_; ///< the spheres that were ever seen, up to the last block
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   tbb::enumerable_thread_specific<TileWorkspace> tileSweeps_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepEstimator.h"
 
+#include "EmbreeEstimator.h"
 #include "ProgressiveSweep.h"
 
 #include <algorithm>
@@ -19,6 +20,10 @@ constexpr int FirstDirections = 64;
 /// particles share. With this margin the error stays below the target in 95 of 100 bakes.
 constexpr double Margin = 1.1;
 
+/// What a particle costs by rays, in terms of the sweep with as many directions: measured 4
+/// (overlap) to 14 (gas), and somewhat more for directions beyond need, whose number doubles.
+constexpr double RayCost = 16;
+
 /// The error falls as D^-1/2 at worst; aim a little further and look again.
 int moreDirections(int directions, double excess)
 {
@@ -27,25 +32,140 @@ int moreDirections(int directions, double excess)
   return static_cast<int>(std::min<double>(total, SweepEstimator::MaximumDirections));
 }
 
-/// Sets of directions until the error is small enough.
-void refineToTarget(
-  ProgressiveSweep& sweep, double targetError, Progress& progress, SweepReport& report)
+/// A sweep that goes on until the error is small enough, and may leave the last few particles to
+/// rays.
+class TargetedSweep
 {
-  int done = 0;
-  int wanted = FirstDirections;
-  while (!progress.aborted())
+public:
+  TargetedSweep(const BakeScene& scene, const std::vector<unsigned>& particles,
+    const BakeSettings& settings, const SweepOptions& options, Progress& progress)
+    : scene_(scene)
+    , particles_(particles)
+    , settings_(settings)
+    , options_(options)
+    , progress_(progress)
+    , sweep_(scene, particles, settings, options.skips, ProgressiveSweep::Watch::All)
   {
-    sweep.refine(wanted - done, progress, ProgressiveSweep::Spread::InSubsets);
-    done = wanted;
-    report.estimatedError = sweep.estimatedError();
-    report.reached = Margin * report.estimatedError <= targetError;
-    if (report.reached || done == SweepEstimator::MaximumDirections)
-    {
-      return;
-    }
-    wanted = moreDirections(done, Margin * report.estimatedError / targetError);
   }
-}
+
+  void run(const OcclusionEstimator::Sink& sink, BakeCounters& counters)
+  {
+    sweepAndRefine(counters);
+    report_.directions = sweep_.directions();
+    if (!progress_.aborted())
+    {
+      sweep_.handOut(sink, progress_, counters, refined_);
+    }
+  }
+
+  [[nodiscard]] const SweepReport& report() const { return report_; }
+
+private:
+  void sweepAndRefine(BakeCounters& counters)
+  {
+    int done = 0;
+    int wanted = FirstDirections;
+    while (!progress_.aborted())
+    {
+      sweep_.refine(wanted - done, progress_, ProgressiveSweep::Spread::InSubsets);
+      done = wanted;
+      errors_ = sweep_.squaredErrors();
+      judge();
+      if (report_.reached || done == SweepEstimator::MaximumDirections)
+      {
+        return;
+      }
+      wanted = moreDirections(done, excess(report_.estimatedError));
+      if (options_.refineByRays && raysAreCheaper(done, wanted - done))
+      {
+        refineByRays(counters);
+        judge();
+        return;
+      }
+    }
+  }
+
+  /// How many times an error is above what the target asks for.
+  [[nodiscard]] double excess(double error) const { return Margin * error / options_.targetError; }
+
+  void judge()
+  {
+    SquaredError all;
+    for (const SquaredError& error : errors_)
+    {
+      all.add(error);
+    }
+    report_.estimatedError = all.rms();
+    report_.reached = excess(report_.estimatedError) <= 1;
+  }
+
+  /// Whether rays take the particles that are above the target below it at less work than the next
+  /// round of directions would be.
+  [[nodiscard]] bool raysAreCheaper(int done, int more) const
+  {
+    double needed = 0;
+    for (const SquaredError& error : errors_)
+    {
+      const double factor = excess(error.rms());
+      if (factor > 1)
+      {
+        // Between the D^-1/2 of the worst case and the D^-3/4 of the best.
+        const double directions = done * std::pow(factor, 1.5);
+        if (directions > EmbreeEstimator::MaximumDirections)
+        {
+          return false;
+        }
+        needed += directions;
+      }
+    }
+    return RayCost * needed < static_cast<double>(more) * static_cast<double>(sweep_.spheres());
+  }
+
+  void refineByRays(BakeCounters& counters)
+  {
+    std::vector<unsigned> particles;
+    for (std::size_t place = 0; place < errors_.size(); ++place)
+    {
+      if (excess(errors_[place].rms()) > 1)
+      {
+        refined_.places.push_back(place);
+        particles.push_back(particles_[place]);
+      }
+    }
+    EmbreeOptions options;
+    options.targetError = options_.targetError / Margin;
+    const EmbreeEstimator embree(options);
+    BakeCounters work;
+    embree.estimate(
+      scene_, particles, settings_, progress_, [this](const RawTextures& raw) { keep(raw); }, work);
+    counters.rays += work.rays;
+    counters.threads = std::max(counters.threads, work.threads);
+    report_.refined = particles.size();
+    for (const std::size_t place : refined_.places)
+    {
+      SquaredError& error = errors_[place];
+      error.sum = error.area * embree.report().estimatedError * embree.report().estimatedError;
+    }
+  }
+
+  void keep(const RawTextures& raw)
+  {
+    const auto side = static_cast<std::size_t>(settings_.textureResolution);
+    const std::size_t count = raw.count * side * side;
+    refined_.values.insert(refined_.values.end(), raw.values, raw.values + count);
+    refined_.shares.insert(refined_.shares.end(), raw.outsideShares, raw.outsideShares + count);
+  }
+
+  const BakeScene& scene_;
+  const std::vector<unsigned>& particles_;
+  const BakeSettings& settings_;
+  const SweepOptions& options_;
+  Progress& progress_;
+  ProgressiveSweep sweep_;
+  std::vector<SquaredError> errors_; ///< in the order of the list
+  TextureReplacements refined_;
+  SweepReport report_;
+};
 }
 
 int sweepDirectionsForSamples(int samplesPerTexel)
@@ -63,17 +183,17 @@ void SweepEstimator::estimate(const BakeScene& scene, const std::vector<unsigned
   const BakeSettings& settings, Progress& progress, const Sink& sink, BakeCounters& counters) const
 {
   report_ = {};
-  ProgressiveSweep sweep(scene, particles, settings, options_.skips);
   if (options_.targetError > 0)
   {
-    refineToTarget(sweep, options_.targetError, progress, report_);
+    TargetedSweep sweep(scene, particles, settings, options_, progress);
+    sweep.run(sink, counters);
+    report_ = sweep.report();
+    return;
   }
-  else
-  {
-    sweep.refine(options_.directions > 0 ? options_.directions
-                                         : sweepDirectionsForSamples(settings.samplesPerTexel),
-      progress);
-  }
+  ProgressiveSweep sweep(scene, particles, settings, options_.skips);
+  sweep.refine(options_.directions > 0 ? options_.directions
+                                       : sweepDirectionsForSamples(settings.samplesPerTexel),
+    progress);
   report_.directions = sweep.directions();
   if (progress.aborted())
   {

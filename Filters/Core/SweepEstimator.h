@@ -10,8 +10,9 @@ namespace po
 /// How much work a sweep does.
 struct SweepOptions
 {
-  int directions = 0;     ///< 0: as many as the settings' samplesPerTexel stand for
-  double targetError = 0; ///< above 0: RMS error to reach, with as many directions as that takes
+  int directions = 0;       ///< 0: as many as the settings' samplesPerTexel stand for
+  double targetError = 0;   ///< above 0: RMS error to reach, with as many directions as that takes
+  bool refineByRays = true; ///< with a target, where that is cheaper; off for measurements
   SweepSkips skips = {};
 };
 
@@ -19,8 +20,10 @@ struct SweepOptions
 struct SweepReport
 {
   int directions = 0;        ///< swept, without those that the background makes black
-  double estimatedError = 0; ///< RMS error of linear visibility, from subsets of the directions
+  double estimatedError = 0; ///< RMS error of linear visibility, from subsets of the directions,
+                             ///< with a target over all particles
   bool reached = false;      ///< the target error, if there was one
+  std::size_t refined = 0;   ///< particles that were left to rays
 };
 
 /// Finds the visibility of all spheres at once along directions that all share, by going through
@@ -30,7 +33,9 @@ struct SweepReport
 /// with the texels that face the light and loses those behind the spheres in front of it. Each
 /// direction looks at another point of every texel. Points inside other spheres have no weight.
 ///
-/// The cost does not depend on how many particles are listed: for a few, rays are better.
+/// The cost does not depend on how many particles are listed: for a few, rays are better. So a
+/// target error is reached by more directions for all, or, once that is cheaper, by rays
+/// (EmbreeEstimator) for those particles alone that are still above it.
 class SweepEstimator : public OcclusionEstimator
 {
 public:
@@ -47,8 +52,9 @@ public:
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const override;
 
-  /// Of particles that are overlapped; others need 5 (see VisibilityRecords).
-  [[nodiscard]] double bytesPerTexel() const override { return 13; }
+  /// Of particles that are overlapped; others need 8 less (see VisibilityRecords). The error bars
+  /// of all particles take 16.
+  [[nodiscard]] double bytesPerTexel() const override { return options_.targetError > 0 ? 29 : 13; }
 
   /// Of the last estimate.
   [[nodiscard]] const SweepReport& report() const { return report_; }

@@ -2,19 +2,14 @@
 #ifndef po_SweepTextures_h
 #define po_SweepTextures_h
 
-#include "BackgroundIrradiance.h"
+#include "TextureFormula.h"
 #include "VisibilityRecords.h"
 
 #include <vector>
 
 namespace po
 {
-/// Makes textures out of what a sweep has summed.
-///
-/// A texel of the fine grid is sum(w V) / sum(w), the share of the open sky's light that arrives,
-/// times the irradiance of an open surface; both sums run over the points outside other spheres. An
-/// open texel is thus exactly 1 under the uniform background, a dark one exactly 0. Texels of the
-/// texture are means over the outside area of theirs. Spheres are named by their index in the
+/// Makes textures out of what a sweep has summed. Spheres are named by their index in the
 /// SweepScene.
 class SweepTextures
 {
@@ -25,45 +20,15 @@ public:
   /// shares are not looked for: values 0, shares 1.
   void fill(unsigned sphere, float* values, float* shares) const;
 
-  /// Squared standard errors of a watched sphere's texels, from the spread of the subsets of
-  /// directions as if these were independent.
-  struct SquaredError
-  {
-    double sum = 0;  ///< weighted by outside area
-    double area = 0; ///< the sum of the weights
-  };
+  /// Squared standard errors of a watched sphere's texels.
   [[nodiscard]] SquaredError squaredError(unsigned sphere) const;
 
 private:
-  /// What is common to all fine texels of one sphere, [slots] each.
-  struct FineTexels
-  {
-    std::vector<float> irradiance; ///< of the open outside part
-    std::vector<float> share;      ///< outside share
-    std::vector<float> weight;     ///< sum(w)
-  };
-  [[nodiscard]] FineTexels openTexels() const;
-  [[nodiscard]] FineTexels cutTexels(const CutSphere& cut) const;
-
-  /// @param weight [slots], in place of that of the fine texels
-  void coarsen(const FineTexels& fine, const float* sums, const float* weight, float* values,
-    float* shares) const;
+  [[nodiscard]] std::vector<float> subsetWeights(const CutSphere& cut) const;
 
   const VisibilityRecords& records_;
-  bool uniform_;                  ///< the irradiance of an open surface is 1 everywhere
-  std::vector<float> irradiance_; ///< in the order of TexelPatterns
-  std::vector<float> ones_;       ///< as many
-  FineTexels open_;               ///< of a sphere that nothing overlaps
-
-  /// A fine texel of the sweep and the texel of the texture that it is a part of.
-  struct Part
-  {
-    std::size_t slot;
-    std::size_t texel;
-    float area; ///< its share of the texel's area
-  };
-  std::vector<Part> parts_;
-  std::vector<float> areas_; ///< of the texels: the sums of their parts, 1 up to rounding
+  TextureFormula formula_;
+  std::vector<float> dark_; ///< [ErrorSubsets][slots] zeros
 };
 }
 

@@ -24,7 +24,7 @@ bool isSliver(const BuriedCap& cap)
 
 VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& order,
   const SweepTexels& texels, std::uint64_t seed, const std::vector<std::uint8_t>& listed,
-  const std::vector<unsigned>& watched)
+  const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched)
   : scene_(scene)
   , order_(order)
   , texels_(texels)
@@ -33,20 +33,20 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , surface_(order.size())
   , cuts_(order.size())
   , chunks_((order.size() + ChunkSpheres - 1) / ChunkSpheres)
-  , watched_(order.size(), -1)
-  , subsetSums_(watched.size(), std::vector<float>(SweepSubsets * texels.slots(), 0.0f))
+  , watched_(order.size(), 0)
 {
   open_.total.assign(texels.slots(), 0.0f);
-  open_.subsets.assign(SweepSubsets * texels.slots(), 0.0f);
+  open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
   open_.pastPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   for (std::size_t sphere = 0; sphere < listed.size(); ++sphere)
   {
-    surface_[sphere] = listed[sphere] != 0 ? Surface::Unknown : Surface::NotListed;
+    const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
+    surface_[sphere] = listed[sphere] != 0 ? known : Surface::NotListed;
   }
-  for (std::size_t i = 0; i < watched.size(); ++i)
+  for (const unsigned sphere : watched)
   {
-    watched_[watched[i]] = static_cast<int>(i);
+    watched_[sphere] = 1;
   }
 }
 
@@ -190,11 +190,14 @@ void VisibilityRecords::addChunk(
     }
     chunk.everSeen[place] = 1;
     addMasked(groups, terms.data(), count, chunk.sums.get() + place * texels_.slots());
-    const int watched = watched_[index * ChunkSpheres + place];
-    if (watched >= 0)
+    if (watched_[index * ChunkSpheres + place] != 0)
     {
-      float* sums = subsetSums_[static_cast<std::size_t>(watched)].data();
-      addMasked(groups, terms.data(), count, sums + subset * texels_.slots());
+      std::unique_ptr<float[]>& sums = chunk.subsets[place];
+      if (!sums)
+      {
+        sums = std::make_unique<float[]>(ErrorSubsets * texels_.slots());
+      }
+      addMasked(groups, terms.data(), count, sums.get() + subset * texels_.slots());
     }
   }
 }
@@ -227,17 +230,30 @@ void VisibilityRecords::nextEpoch()
   std::fill(open_.latestPatterns.begin(), open_.latestPatterns.end(), 0.0f);
 }
 
-const float* VisibilityRecords::sums(unsigned sphere) const
+const VisibilityRecords::Chunk* VisibilityRecords::chunkIfSeen(unsigned sphere) const
 {
   const Chunk* chunk = chunks_[sphere / ChunkSpheres].load(std::memory_order_acquire);
-  const std::size_t place = sphere % ChunkSpheres;
-  const bool seen = chunk != nullptr && chunk->everSeen[place] != 0;
-  return seen ? chunk->sums.get() + place * texels_.slots() : nullptr;
+  return chunk != nullptr && chunk->everSeen[sphere % ChunkSpheres] != 0 ? chunk : nullptr;
+}
+
+const float* VisibilityRecords::sums(unsigned sphere) const
+{
+  if (isAlone(sphere))
+  {
+    return open_.total.data();
+  }
+  const Chunk* chunk = chunkIfSeen(sphere);
+  return chunk != nullptr ? chunk->sums.get() + sphere % ChunkSpheres * texels_.slots() : nullptr;
 }
 
 const float* VisibilityRecords::subsetSums(unsigned sphere) const
 {
-  return subsetSums_[static_cast<std::size_t>(watched_[sphere])].data();
+  if (isAlone(sphere))
+  {
+    return open_.subsets.data();
+  }
+  const Chunk* chunk = chunkIfSeen(sphere);
+  return chunk != nullptr ? chunk->subsets[sphere % ChunkSpheres].get() : nullptr;
 }
 
 const CutSphere* VisibilityRecords::cut(unsigned sphere) const
@@ -267,6 +283,16 @@ std::vector<float> VisibilityRecords::outsideWeights(const CutSphere& cut) const
 bool VisibilityRecords::isBuried(unsigned sphere) const
 {
   return surface_[sphere].load(std::memory_order_acquire) == Surface::Buried;
+}
+
+bool VisibilityRecords::isAlone(unsigned sphere) const
+{
+  return surface_[sphere].load(std::memory_order_relaxed) == Surface::Alone;
+}
+
+std::uint64_t VisibilityRecords::alone() const
+{
+  return static_cast<std::uint64_t>(std::count(surface_.begin(), surface_.end(), Surface::Alone));
 }
 
 std::uint64_t VisibilityRecords::buried() const

@@ -6,6 +6,7 @@
 #include "SweepScene.h"
 #include "SweepTexels.h"
 #include "TexelExposure.h"
+#include "TextureFormula.h"
 
 #include <tbb/concurrent_vector.h>
 
@@ -19,9 +20,6 @@ namespace po
 /// Axes, of two opposite directions each, are swept in blocks of this many: in parallel, their
 /// masks kept, then summed in order.
 inline constexpr std::size_t AxesPerBlock = 8;
-
-/// Interleaved subsets of blocks whose spread is the error bar.
-inline constexpr std::size_t SweepSubsets = 4;
 
 /// What a sweep needs to know of a sphere that others overlap.
 struct CutSphere
@@ -44,13 +42,14 @@ struct AxisWeights
 struct OpenWeights
 {
   std::vector<float> total;          ///< [slots], summed in the order of the directions
-  std::vector<float> subsets;        ///< [SweepSubsets][slots]
+  std::vector<float> subsets;        ///< [ErrorSubsets][slots]
   std::vector<float> pastPatterns;   ///< in the order of TexelPatterns, ended epochs
   std::vector<float> latestPatterns; ///< in the order of TexelPatterns, this epoch
 };
 
 /// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
-/// 16 x 16 texels 1.25 KiB a sphere, and 1 to 2 KiB more where others overlap it.
+/// 16 x 16 texels 1.25 KiB a sphere, 1 to 2 KiB more where others overlap it, and 4 KiB more where
+/// it is watched and seen.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
@@ -58,10 +57,11 @@ class VisibilityRecords
 {
 public:
   /// @param listed flags by sphere: whose visibility is asked for; others only occlude
+  /// @param alone flags by sphere: known to be open all over
   /// @param watched the spheres that error bars come from
   VisibilityRecords(const BakeScene& scene, const SweepScene& order, const SweepTexels& texels,
     std::uint64_t seed, const std::vector<std::uint8_t>& listed,
-    const std::vector<unsigned>& watched);
+    const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched);
   ~VisibilityRecords();
   VisibilityRecords(const VisibilityRecords&) = delete;
   VisibilityRecords& operator=(const VisibilityRecords&) = delete;
@@ -86,7 +86,7 @@ public:
 
   /// [slots] weights of the directions that are seen; null for a sphere that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
-  /// [SweepSubsets][slots], of a watched sphere.
+  /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
   /// What overlaps a sphere that was seen; null if nothing does.
   [[nodiscard]] const CutSphere* cut(unsigned sphere) const;
@@ -97,11 +97,9 @@ public:
   /// to.
   [[nodiscard]] std::vector<float> outsideWeights(const CutSphere& cut) const;
 
-  /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
-  /// to sums [rimGroups][GroupSize].
-  void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
-
   [[nodiscard]] std::uint64_t buried() const;
+  /// Of the listed ones.
+  [[nodiscard]] std::uint64_t alone() const;
 
 private:
   /// What is known of a sphere's surface.
@@ -111,6 +109,7 @@ private:
     Whole, ///< no part is inside others
     Cut,
     Buried,
+    Alone, ///< open all over, not swept
     NotListed
   };
 
@@ -124,12 +123,18 @@ private:
     std::unique_ptr<GroupMask[]> masks; ///< [AxesPerBlock][ChunkSpheres][groups] where seen
     std::array<std::array<std::uint8_t, ChunkSpheres>, AxesPerBlock> seen{};
     std::array<std::uint8_t, ChunkSpheres> everSeen{};
+    std::array<std::unique_ptr<float[]>, ChunkSpheres> subsets; ///< of watched spheres ever seen
   };
 
   [[nodiscard]] Surface surfaceOf(unsigned sphere);
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
+  /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
+  /// to sums [rimGroups][GroupSize].
+  void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
   Chunk& findOrMakeChunk(unsigned sphere);
   void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
+  [[nodiscard]] bool isAlone(unsigned sphere) const;
+  [[nodiscard]] const Chunk* chunkIfSeen(unsigned sphere) const;
 
   const BakeScene& scene_;
   const SweepScene& order_;
@@ -142,8 +147,7 @@ private:
   std::vector<std::atomic<CutSphere*>> cuts_; ///< by sphere
   std::vector<std::atomic<Chunk*>> chunks_;   ///< by sphere / ChunkSpheres
   tbb::concurrent_vector<std::unique_ptr<CutSphere>> ownedCuts_;
-  std::vector<int> watched_; ///< by sphere: place in subsetSums_, or -1
-  std::vector<std::vector<float>> subsetSums_;
+  std::vector<std::uint8_t> watched_; ///< flags by sphere
 };
 }
 

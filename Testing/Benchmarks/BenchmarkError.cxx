@@ -117,6 +117,7 @@ po::SweepSkips skipsWithout(const std::string& name)
     { "neverSeen", &po::SweepSkips::neverSeen },
     { "offsetMasks", &po::SweepSkips::offsetMasks },
     { "blackSky", &po::SweepSkips::blackSky },
+    { "lonely", &po::SweepSkips::lonely },
   };
   po::SweepSkips skips;
   if (!name.empty())
@@ -136,7 +137,9 @@ Method makeMethod(const std::string& name, int level, const std::string& without
 {
   if (name == "Sweep")
   {
-    const po::SweepOptions options{ level, 0, skipsWithout(without) };
+    po::SweepOptions options;
+    options.directions = level;
+    options.skips = skipsWithout(without);
     return { std::make_unique<po::SweepEstimator>(options), 1, true };
   }
   if (!without.empty())

@@ -108,6 +108,7 @@ TEST(OverlapFinder, FindsTheNearestThatComeWithinReach)
       }
     }
     std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(finder.hasNear(id, reach), !expected.empty()) << id;
     for (const std::size_t limit : { std::size_t(10), spheres.size() })
     {
       std::vector<po::Neighbour> found;

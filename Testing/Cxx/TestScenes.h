@@ -67,26 +67,33 @@ struct Estimates
   std::vector<float> shares;
 };
 
-inline Estimates estimateAll(const po::OcclusionEstimator& estimator, const po::BakeScene& scene,
-  const po::BakeSettings& settings)
+inline Estimates estimateList(const po::OcclusionEstimator& estimator, const po::BakeScene& scene,
+  const std::vector<unsigned>& particles, const po::BakeSettings& settings,
+  po::BakeCounters* counters = nullptr)
 {
-  std::vector<unsigned> all(scene.cloud.spheres.size());
-  std::iota(all.begin(), all.end(), 0u);
   const auto texels =
     static_cast<std::size_t>(settings.textureResolution * settings.textureResolution);
   Estimates found;
   po::Progress progress;
-  po::BakeCounters counters;
+  po::BakeCounters ignored;
   estimator.estimate(
-    scene, all, settings, progress,
+    scene, particles, settings, progress,
     [&](const po::RawTextures& raw)
     {
       found.values.insert(found.values.end(), raw.values, raw.values + raw.count * texels);
       found.shares.insert(
         found.shares.end(), raw.outsideShares, raw.outsideShares + raw.count * texels);
     },
-    counters);
+    counters != nullptr ? *counters : ignored);
   return found;
+}
+
+inline Estimates estimateAll(const po::OcclusionEstimator& estimator, const po::BakeScene& scene,
+  const po::BakeSettings& settings, po::BakeCounters* counters = nullptr)
+{
+  std::vector<unsigned> all(scene.cloud.spheres.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return estimateList(estimator, scene, all, settings, counters);
 }
 
 #endif

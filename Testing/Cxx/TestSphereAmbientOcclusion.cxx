@@ -402,6 +402,9 @@ TEST(SphereAmbientOcclusion, ATargetErrorChoosesTheWork)
     EXPECT_EQ(errorOf(filter), "");
     EXPECT_LE(filter->GetEstimatedError(), 0.01);
     EXPECT_GT(filter->GetEstimatedError(), 0);
+    auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
+    EXPECT_EQ(parameter(output->GetFieldData(), "refinedParticles"),
+      std::to_string(filter->GetNumberOfParticlesRefined()));
     const bool hasDirections = method != vtkSphereAmbientOcclusion::Reference;
     EXPECT_TRUE(hasDirections ? filter->GetNumberOfDirections() != directions
                               : filter->GetNumberOfSamplesUsed() > 49);

@@ -15,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace
 {
@@ -235,6 +236,137 @@ TEST(SweepEstimator, KeepsThePromiseOfATargetError)
   EXPECT_LE(failures, 4);
 }
 
+/// Dark particles in a closed shell, whose error is 0, and a few open ones that small scattered
+/// spheres surround, which take many directions. The open ones come last.
+constexpr std::size_t DarkParticles = 343;
+constexpr std::size_t OpenParticles = 8;
+
+struct UnequalScene
+{
+  UnequalScene()
+  {
+    std::vector<po::Sphere> particles;
+    for (std::size_t i = 0; i < DarkParticles; ++i)
+    {
+      const auto coordinate = [i](std::size_t stride)
+      { return static_cast<float>(i / stride % 7) - 3; };
+      particles.push_back({ coordinate(1), coordinate(7), coordinate(49), 0.4f });
+    }
+    std::vector<po::Sphere> casters;
+    addClosedShell(casters, 10, 2, 700);
+    po::Random random(6, 0, 0);
+    for (std::size_t i = 0; i < OpenParticles; ++i)
+    {
+      const po::Sphere open{ 100 * static_cast<float>(i + 1), 0, 0, 1 };
+      particles.push_back(open);
+      for (int k = 0; k < 400; ++k)
+      {
+        const double z = 2 * random.uniform() - 1;
+        const double angle = 6.283185307 * random.uniform();
+        const double reach = 3 + 4 * random.uniform();
+        const double r = reach * std::sqrt(1 - z * z);
+        casters.push_back({ open.x + static_cast<float>(r * std::cos(angle)),
+          static_cast<float>(r * std::sin(angle)), static_cast<float>(reach * z), 0.2f });
+      }
+    }
+    cloud = cloudOf(particles);
+    occluders.spheres = po::makeSphereCloudLike(
+      cloud, casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
+      [&](std::size_t i) {
+        return static_cast<double>(casters[i].radius);
+      }).spheres;
+  }
+
+  po::SphereCloud cloud;
+  po::Occluders occluders;
+};
+
+/// Finds the open particles alone.
+Estimates judgeOpenParticles(const po::BakeScene& scene, const po::BakeSettings& settings)
+{
+  std::vector<unsigned> list(OpenParticles);
+  std::iota(list.begin(), list.end(), static_cast<unsigned>(DarkParticles));
+  return estimateList(po::ReferenceEstimator(), scene, list, settings);
+}
+
+/// RMS errors of the open particles, one by one.
+std::vector<double> errorsOfOpenParticles(const Estimates& ours, const Estimates& judge, int side)
+{
+  const auto texels = static_cast<std::ptrdiff_t>(side * side);
+  const auto part = [texels](const std::vector<float>& all, std::size_t particle)
+  {
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(particle) * texels;
+    return std::vector<float>(first, first + texels);
+  };
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < OpenParticles; ++i)
+  {
+    const Estimates one{ part(ours.values, DarkParticles + i),
+      part(ours.shares, DarkParticles + i) };
+    const Estimates other{ part(judge.values, i), part(judge.shares, i) };
+    errors.push_back(compare(one, other, side).rms);
+  }
+  return errors;
+}
+
+TEST(SweepEstimator, LeavesAFewParticlesAboveTheTargetToRays)
+{
+  const UnequalScene unequal;
+  const po::BakeScene scene(unequal.cloud, unequal.occluders);
+  po::BakeSettings settings = floatSettings(6, 40000);
+  settings.seed = 77;
+  const Estimates judge = judgeOpenParticles(scene, settings);
+  po::SweepOptions options;
+  options.targetError = 0.006;
+  for (const std::uint64_t seed : { 1, 2, 3 })
+  {
+    settings.seed = seed;
+    options.refineByRays = false;
+    const po::SweepEstimator alone(options);
+    (void)estimateAll(alone, scene, settings);
+    EXPECT_TRUE(alone.report().reached);
+    EXPECT_EQ(alone.report().refined, 0u);
+
+    options.refineByRays = true;
+    const po::SweepEstimator refined(options);
+    const Estimates ours = estimateAll(refined, scene, settings);
+    EXPECT_TRUE(refined.report().reached);
+    EXPECT_EQ(refined.report().refined, OpenParticles);
+    EXPECT_LT(refined.report().directions, alone.report().directions);
+    EXPECT_LE(refined.report().estimatedError, options.targetError);
+    EXPECT_GT(refined.report().estimatedError, 0);
+    for (const double error : errorsOfOpenParticles(ours, judge, 6))
+    {
+      EXPECT_LT(error, options.targetError);
+    }
+    EXPECT_EQ(*std::max_element(ours.values.begin(), ours.values.begin() + DarkParticles * 36), 0);
+  }
+}
+
+TEST(SweepEstimator, GivesTheSameBitsWithATargetForAnyNumberOfThreads)
+{
+  const UnequalScene unequal;
+  const po::BakeScene scene(unequal.cloud, unequal.occluders);
+  po::SweepOptions options;
+  options.targetError = 0.006;
+  std::vector<Estimates> results;
+  std::vector<double> errors;
+  for (const std::size_t threads : { 1, 2, 7 })
+  {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const po::SweepEstimator sweep(options);
+    results.push_back(estimateAll(sweep, scene, floatSettings(8, 49)));
+    errors.push_back(sweep.report().estimatedError);
+    EXPECT_EQ(sweep.report().refined, OpenParticles);
+  }
+  for (const std::size_t other : { 1, 2 })
+  {
+    EXPECT_EQ(results[other].values, results[0].values);
+    EXPECT_EQ(results[other].shares, results[0].shares);
+    EXPECT_EQ(errors[other], errors[0]);
+  }
+}
+
 TEST(SweepEstimator, HasNoBias)
 {
   // Over seeds errors average out, a bias does not: 24 bakes with 144 directions of each family.
@@ -263,6 +395,48 @@ TEST(SweepEstimator, HasNoBias)
   }
 }
 
+TEST(SweepEstimator, WhatIsAloneWithinTheMaximumDistanceChangesNothing)
+{
+  // A cloud, lone particles about it, one occluder alone and one that just reaches a particle.
+  std::vector<po::Sphere> spheres = mixedScene();
+  for (int i = 0; i < 10; ++i)
+  {
+    spheres.push_back(
+      { 20 + 5.0f * static_cast<float>(i), 3, -2, 0.3f + 0.1f * static_cast<float>(i) });
+  }
+  const po::SphereCloud cloud = cloudOf(spheres);
+  po::Occluders occluders;
+  const std::vector<po::Sphere> casters{ { -50, 0, 0, 1 }, { 20, 3, -0.75f, 0.5f } };
+  occluders.spheres = po::makeSphereCloudLike(
+    cloud, casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
+    [&](std::size_t i) {
+      return static_cast<double>(casters[i].radius);
+    }).spheres;
+  const po::BakeScene scene(cloud, occluders);
+  po::BakeSettings settings = floatSettings(8, 49);
+  settings.maximumDistance = 0.5;
+  for (const po::Background& background : { po::Background(po::UniformBackground{}),
+         po::Background(po::GradientBackground{ { 1, 1, 0 }, 0.1, 1 }) })
+  {
+    settings.background = background;
+    po::SweepOptions options;
+    po::BakeCounters skipped;
+    const Estimates with = estimateAll(po::SweepEstimator(options), scene, settings, &skipped);
+    options.skips.lonely = false;
+    po::BakeCounters all;
+    const Estimates without = estimateAll(po::SweepEstimator(options), scene, settings, &all);
+    EXPECT_EQ(with.values, without.values);
+    EXPECT_EQ(with.shares, without.shares);
+    EXPECT_GE(skipped.particlesAlone, 9u); // some of the cloud too
+    EXPECT_LT(skipped.particlesAlone, 40u);
+    EXPECT_EQ(all.particlesAlone, 0u);
+  }
+  settings.maximumDistance = 0;
+  po::BakeCounters unbounded;
+  (void)estimateAll(po::SweepEstimator(), scene, settings, &unbounded);
+  EXPECT_EQ(unbounded.particlesAlone, 0u);
+}
+
 TEST(SweepEstimator, AbortsWithinASecond)
 {
   std::vector<po::Sphere> spheres;
@@ -286,14 +460,8 @@ TEST(SweepEstimator, AListGetsWhatTheWholeSetGets)
   const po::BakeSettings settings = floatSettings(8, 49);
   const Estimates all = estimateAll(po::SweepEstimator(), scene, settings);
   const std::vector<unsigned> list{ 3, 17, 42 };
-  std::vector<float> values;
-  po::Progress progress;
-  po::BakeCounters counters;
-  po::SweepEstimator().estimate(
-    scene, list, settings, progress,
-    [&](const po::RawTextures& raw)
-    { values.insert(values.end(), raw.values, raw.values + raw.count * 64); },
-    counters);
+  const std::vector<float> values =
+    estimateList(po::SweepEstimator(), scene, list, settings).values;
   ASSERT_EQ(values.size(), 3 * 64u);
   for (std::size_t i = 0; i < values.size(); ++i)
   {

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TextureFormula.h"
+
+#include "TexelMap.h"
+#include "TexelMask.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace po
+{
+void SquaredError::add(const SquaredError& other)
+{
+  sum += other.sum;
+  area += other.area;
+}
+
+double SquaredError::rms() const
+{
+  return area > 0 ? std::sqrt(sum / area) : 0;
+}
+
+TextureFormula::TextureFormula(
+  const SweepTexels& texels, const TexelPatterns& patterns, const Background& background)
+  : groups_(texels.groups())
+  , uniform_(std::holds_alternative<UniformBackground>(background))
+  , ones_(TexelPatterns::Count * GroupSize, 1.0f)
+  , whole_{ std::vector<float>(texels.slots(), 1.0f), std::vector<float>(texels.slots(), 1.0f) }
+{
+  addParts(texels);
+  if (!uniform_)
+  {
+    addIrradiance(texels, patterns, background);
+  }
+}
+
+void TextureFormula::addParts(const SweepTexels& texels)
+{
+  const int side = texels.resolution() / texels.refinement();
+  areas_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0.0f);
+  steradians_.resize(areas_.size());
+  for (std::size_t slot = 0; slot < texels.slots(); ++slot)
+  {
+    const std::uint32_t texel = texels.texelOfSlot(slot);
+    if (texel != SweepTexels::Empty)
+    {
+      const int row = static_cast<int>(texel) / texels.resolution();
+      const int column = static_cast<int>(texel) % texels.resolution();
+      const int coarseRow = row / texels.refinement();
+      const double whole = texelArea(side, coarseRow);
+      parts_.push_back({ slot, texelIndex(side, coarseRow, column / texels.refinement()),
+        static_cast<float>(texelArea(texels.resolution(), row) / whole) });
+      areas_[parts_.back().texel] += parts_.back().area;
+      steradians_[parts_.back().texel] = whole;
+    }
+  }
+}
+
+void TextureFormula::addIrradiance(
+  const SweepTexels& texels, const TexelPatterns& patterns, const Background& background)
+{
+  const BackgroundIrradiance irradiance(background);
+  irradiance_.assign(TexelPatterns::Count * texels.slots(), 0.0f);
+  for (const Part& part : parts_)
+  {
+    double sum = 0;
+    for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
+    {
+      const Vec3d normal = normalized(patterns.normal(p, part.slot).as<double>());
+      const auto value = static_cast<float>(irradiance(normal));
+      irradiance_[TexelPatterns::index(p, part.slot)] = value;
+      sum += static_cast<double>(value);
+    }
+    whole_.irradiance[part.slot] = static_cast<float>(sum / TexelPatterns::Count);
+  }
+}
+
+OutsideSurface TextureFormula::cut(const TexelExposure& exposure) const
+{
+  OutsideSurface surface = whole_;
+  for (std::size_t slot = 0; slot < surface.shares.size(); ++slot)
+  {
+    const bool outside = (exposure.bits[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
+    surface.shares[slot] = outside ? 1.0f : 0.0f;
+  }
+  for (const std::uint32_t group : exposure.rimGroups)
+  {
+    const std::size_t first = group * GroupSize;
+    const GroupMask* exposed = exposure.bits.data() + group;
+    std::array<float, GroupSize> points{};
+    std::array<float, GroupSize> irradiance{};
+    addOverPoints(exposed, groups_, ones_.data(), points.data());
+    if (!uniform_)
+    {
+      addOverPoints(
+        exposed, groups_, irradiance_.data() + TexelPatterns::index(0, first), irradiance.data());
+    }
+    for (std::size_t i = 0; i < GroupSize; ++i)
+    {
+      surface.shares[first + i] = points[i] / TexelPatterns::Count;
+      if (!uniform_ && points[i] > 0 && points[i] < TexelPatterns::Count)
+      {
+        surface.irradiance[first + i] = irradiance[i] / points[i];
+      }
+    }
+  }
+  return surface;
+}
+
+void TextureFormula::fill(const OutsideSurface& surface, const float* sums, const float* weights,
+  float* values, float* shares) const
+{
+  fill(0, 0, values, shares);
+  for (const Part& part : parts_)
+  {
+    if (weights[part.slot] > 0)
+    {
+      const float exposed = part.area * surface.shares[part.slot];
+      const float open = std::min(sums[part.slot] / weights[part.slot], 1.0f);
+      values[part.texel] += exposed * open * surface.irradiance[part.slot];
+      shares[part.texel] += exposed;
+    }
+  }
+  for (std::size_t i = 0; i < texels(); ++i)
+  {
+    values[i] = shares[i] > 0 ? values[i] / shares[i] : 0.0f;
+    shares[i] /= areas_[i];
+  }
+}
+
+void TextureFormula::fill(float value, float share, float* values, float* shares) const
+{
+  std::fill(values, values + texels(), value);
+  std::fill(shares, shares + texels(), share);
+}
+
+SquaredError TextureFormula::squaredError(
+  const OutsideSurface& surface, const float* sums, const float* weights) const
+{
+  const std::size_t slots = groups_ * GroupSize;
+  const std::size_t count = texels();
+  std::vector<float> shares(count);
+  std::vector<float> values(ErrorSubsets * count);
+  for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
+  {
+    fill(surface, sums + subset * slots, weights + subset * slots, values.data() + subset * count,
+      shares.data());
+  }
+  SquaredError error;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double area = steradians_[i] * static_cast<double>(shares[i]);
+    double mean = 0;
+    for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
+    {
+      mean += static_cast<double>(values[subset * count + i]) / ErrorSubsets;
+    }
+    double squares = 0;
+    for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
+    {
+      const double deviation = static_cast<double>(values[subset * count + i]) - mean;
+      squares += deviation * deviation;
+    }
+    error.area += area;
+    error.sum += area * squares / (ErrorSubsets * (ErrorSubsets - 1));
+  }
+  return error;
+}
+}
