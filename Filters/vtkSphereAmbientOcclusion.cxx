@@ -117,9 +117,13 @@ int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& 
   {
     return method;
   }
-  const bool fits = !triangles &&
+  // Within about two radii the near spheres, which Embree's method tests without rays, are all
+  // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
+  const bool close = settings.maximumDistance > 0 && settings.maximumDistance <= 2 * cloud.scale;
+  const bool fits =
     sceneMemory(cloud, occluders, settings, po::SweepEstimator(sweep)) <= freeMemory();
-  return fits ? vtkSphereAmbientOcclusion::Sweep : vtkSphereAmbientOcclusion::Embree;
+  return !triangles && !close && fits ? vtkSphereAmbientOcclusion::Sweep
+                                      : vtkSphereAmbientOcclusion::Embree;
 }
 }
 

@@ -108,7 +108,8 @@ public:
 
   enum MethodType
   {
-    Automatic = 0, ///< Sweep, or Embree if its memory is not there or a mesh occludes
+    Automatic = 0, ///< Sweep; Embree if a mesh occludes, MaximumDistance is at most two mean radii,
+                   ///< or the memory for Sweep is not there
     Sweep = 1,     ///< exact visibility of all particles along directions that they share, no rays
     Embree = 2,    ///< along such directions too: near particles exactly, by few rays what is far
     Reference = 3  ///< jittered rays from every texel, one occlusion ray a sample

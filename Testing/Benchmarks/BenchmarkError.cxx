@@ -3,10 +3,11 @@
 /// method at one level of quality. run_error_benchmark.py calls it and gathers what it prints.
 ///
 ///   BenchmarkError measure --scene NAME --method NAME --level N [--count N] [--resolution T]
-///     [--background NAME] [--judge FILE] [--measured N] [--threads N] [--target NAME] [--bake 1]
+///     [--background NAME] [--distance N] [--judge FILE] [--measured N] [--threads N] [--target
+///     NAME] [--bake 1]
 ///     [--without SKIP] [--values FILE] [--compare FILE]
 ///   BenchmarkError judge --scene NAME --output FILE [--count N] [--resolution T] [--samples N]
-///     [--background NAME] [--judged N]
+///     [--background NAME] [--distance N] [--judged N]
 ///   BenchmarkError targets
 ///
 /// `measure` prints one line of JSON. A method whose time grows with the particles that are asked
@@ -315,18 +316,24 @@ int resolutionOf(const Options& options)
   return resolution;
 }
 
-/// The base name of a file; other names stay. What is not the usual background comes behind it.
+/// The base name of a file; other names stay. Unusual conditions come behind it.
 std::string shortName(const Options& options)
 {
   const std::string scene = options.required("scene");
   const std::size_t slash = scene.find_last_of('/');
   const std::string name = slash == std::string::npos ? scene : scene.substr(slash + 1);
   const std::size_t dot = name.rfind(".vtp");
-  const std::string background = options.text("background");
-  return name.substr(0, dot) + (background.empty() ? "" : "-" + background);
+  std::string result = name.substr(0, dot);
+  for (const char* condition : { "background", "distance" })
+  {
+    const std::string value = options.text(condition);
+    result += value.empty() ? "" : "-" + value;
+  }
+  return result;
 }
 
-po::BakeSettings settingsOf(const Options& options)
+/// @param radius the mean one, in which --distance is counted
+po::BakeSettings settingsOf(const Options& options, double radius)
 {
   po::BakeSettings settings;
   settings.textureResolution = resolutionOf(options);
@@ -334,6 +341,7 @@ po::BakeSettings settingsOf(const Options& options)
   {
     settings.background = po::makeBenchmarkBackground(options.text("background"));
   }
+  settings.maximumDistance = options.number("distance", 0) * radius;
   return settings;
 }
 
@@ -397,7 +405,7 @@ void makeJudge(const Options& options)
   {
     throw std::runtime_error("There must be a particle to judge, and two samples a texel");
   }
-  const po::BakeSettings settings = settingsOf(options);
+  const po::BakeSettings settings = settingsOf(options, cloud.scale);
   po::mergeHalves(judgeHalf(scene, judge, settings, judge.seeds[0]),
     judgeHalf(scene, judge, settings, judge.seeds[1]), judge);
   po::writeJudge(judge, output);
@@ -499,6 +507,7 @@ void printCounters(const po::BakeCounters& counters, bool baked)
     { "directionsBlack", counters.directionsBlack },
     { "texelsInside", counters.texelsInside },
     { "particlesBuried", counters.particlesBuried },
+    { "particlesAlone", counters.particlesAlone },
   };
   for (const auto& [name, count] : spared)
   {
@@ -628,7 +637,7 @@ void measure(const Options& options)
   const po::Judge judge = judgeFor(options, cloud, result.resolution);
   const Selection selection = select(options, method, result.particles, judge.particles);
   result.measured = selection.list.size();
-  po::BakeSettings settings = settingsOf(options);
+  po::BakeSettings settings = settingsOf(options, cloud.scale);
   settings.samplesPerTexel = method.samplesPerTexel;
   settings.seed = MeasuredSeed;
   const std::unique_ptr<Comparison> comparison = makeComparison(options);

@@ -9,15 +9,15 @@ COLUMNS = [
     "series", "scene", "particles", "resolution", "method", "level", "threads", "target",
     "measured_particles", "cpu_s", "wall_s", "scene_cpu_s", "scene_wall_s", "peak_MB", "scene_MB",
     "rmse", "bias", "p99", "judge_noise", "judged_particles", "max_difference",
-    "skip", "state", "background", "rms_difference",
+    "skip", "state", "condition", "rms_difference",
     "spheresClosed", "spheresNeverSeen", "directionsBlack", "texelsInside", "particlesBuried",
-    "texturesStored",
+    "particlesAlone", "texturesStored",
     "rays", "bake_ms", "generate_ms", "bare_ms", "share", "ray_rate"]
-TEXT_COLUMNS = {"series", "scene", "method", "target", "skip", "state", "background"}
+TEXT_COLUMNS = {"series", "scene", "method", "target", "skip", "state", "condition"}
 WHOLE_COLUMNS = {
     "particles", "resolution", "level", "threads", "measured_particles", "judged_particles",
     "spheresClosed", "spheresNeverSeen", "directionsBlack", "texelsInside", "particlesBuried",
-    "texturesStored", "rays"}
+    "particlesAlone", "texturesStored", "rays"}
 
 BASELINE = ("Reference", 49)
 
@@ -131,6 +131,8 @@ def spared(row):
     if row["skip"] in counts:
         share = row[counts[row["skip"]]] / (row["particles"] * max(1, directions))
         return f"{100 * share:.1f} % of visits"
+    if row["skip"] == "lonely":
+        return f"{row['particlesAlone']} of {row['particles']} particles"
     if row["skip"] == "blackSky":
         return f"{row['directionsBlack']} of {row['level']} directions"
     return "not counted"
@@ -183,13 +185,13 @@ def rows_table(rows):
                  [[row.get(name) for name in names] for row in rows])
 
 
-def scene_and_light(row):
-    light = row.get("background", "uniform")
-    return row["scene"] if light == "uniform" else f"{row['scene']} ({light})"
+def scene_and_condition(row):
+    condition = row.get("condition")
+    return f"{row['scene']} ({condition})" if condition else row["scene"]
 
 
 def noise_line(rows):
-    noises = {scene_and_light(row): row["judge_noise"] for row in rows if "judge_noise" in row}
+    noises = {scene_and_condition(row): row["judge_noise"] for row in rows if "judge_noise" in row}
     if not noises:
         return ""
     listed = ", ".join(f"{scene} {number(noise, 2)}" for scene, noise in noises.items())
@@ -243,7 +245,7 @@ def skips_body(rows):
               p["on"]["rmse"], p["off"]["rmse"], p["off"]["rms_difference"], spared(p["on"])]
              for p in skip_pairs(rows)]
     return ("Each skip is switched off alone. blackSky: under a background that is black below the "
-            "horizon.\nA visit is one sphere in one direction.\n\n" +
+            "horizon.\nlonely: spheres occlude within one mean radius only. A visit is one sphere in one direction.\n\n" +
             table(["scene", "skip", "CPU s on", "off", "off / on", "RMSE on", "off",
                    "RMS difference", "spared"], lines) + stored_table(rows))
 

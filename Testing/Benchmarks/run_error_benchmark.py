@@ -39,8 +39,10 @@ MEASURED = {"Embree": 2048}
 FAMILIES = ["pack", "overlap", "gas", "shell", "foam"]
 FILES = {name: SOURCE / "Data" / f"{name}.vtp" for name in ["heap", "molecule", "bullet_1000"]}
 
-# What a sweep can be kept from leaving out, and the background that shows it.
-SKIPS = {"closedCells": None, "neverSeen": None, "offsetMasks": None, "blackSky": "half"}
+# What a sweep can be kept from leaving out, and the options that show it: a background, or the distance within which
+# spheres occlude, in mean radii.
+SKIPS = {"closedCells": {}, "neverSeen": {}, "offsetMasks": {}, "blackSky": {"background": "half"},
+         "lonely": {"distance": 1}}
 SKIP_SETS = ["pack", "overlap", "gas", "foam", "heap", "bullet_1000"]
 SKIP_REPEATS = 3
 
@@ -81,10 +83,10 @@ def family(name, count):
     return Scene(name, name, count)
 
 
-def judge_name(scene, background=None):
+def judge_name(scene, conditions):
     count = f"-{scene.count}" if scene.count else ""
-    light = f"-{background}" if background else ""
-    return f"{scene.label.replace(':', '-')}{count}-T{RESOLUTION}{light}.ref"
+    special = "".join(f"-{name}-{value}" for name, value in conditions.items())
+    return f"{scene.label.replace(':', '-')}{count}-T{RESOLUTION}{special}.ref"
 
 
 class Benchmark:
@@ -117,23 +119,23 @@ class Benchmark:
         return [text for name, value in values.items() if value is not None
                 for text in (f"--{name}", value)]
 
-    def judge(self, scene, background=None):
+    def judge(self, scene, **conditions):
         """The file of reference values: the shipped one, or one made beside the results."""
-        shipped = SHIPPED_REFERENCES / judge_name(scene, background)
+        shipped = SHIPPED_REFERENCES / judge_name(scene, conditions)
         if shipped.exists():
             return shipped
-        file = self.references / judge_name(scene, background)
+        file = self.references / judge_name(scene, conditions)
         if not file.exists():
             self.references.mkdir(parents=True, exist_ok=True)
             samples = TINY_SAMPLES if self.tiny else PASSING_SAMPLES
-            self.write_judge(scene, file, samples, background)
+            self.write_judge(scene, file, samples, **conditions)
         return file
 
-    def write_judge(self, scene, file, samples, background=None):
+    def write_judge(self, scene, file, samples, **conditions):
         print(f"reference values: {file.name}", flush=True)
         part = file.with_suffix(".part")
         self.call("judge", *self.scene_arguments(scene, RESOLUTION), "--samples", samples,
-                  "--output", part, *self.option_arguments(background=background))
+                  "--output", part, *self.option_arguments(**conditions))
         os.replace(part, file)
 
     def run_once(self, scene, method, level, resolution=RESOLUTION, **more):
@@ -267,39 +269,38 @@ class Benchmark:
 
     def run_skips(self):
         for scene in self.scenes(SKIP_SETS):
-            for skip, background in SKIPS.items():
+            for skip, conditions in SKIPS.items():
                 try:
-                    self.measure_skip(scene, skip, background)
+                    self.measure_skip(scene, skip, conditions)
                 except subprocess.CalledProcessError as problem:
                     self.leave_out("skips", f"{scene.label} {skip}", problem)
             # What is always spared, up to the table of textures.
             self.measure("skips", scene, "Sweep", SWEEP["Sweep"], bake=1)
 
-    def measure_skip(self, scene, skip, background):
+    def measure_skip(self, scene, skip, conditions):
         """Two rows, one with all skips and one without this one: the fastest of runs in turns."""
         switches = {"on": None, "off": skip}
-        judge = self.judge(scene, background)
+        judge = self.judge(scene, **conditions)
         runs = {state: [] for state in switches}
         for _ in range(1 if self.tiny else max(SKIP_REPEATS, self.options.repeat)):
             for state, without in switches.items():
                 runs[state].append(self.run_once(
-                    scene, "Sweep", SWEEP["Sweep"], judge=judge, background=background,
-                    without=without))
+                    scene, "Sweep", SWEEP["Sweep"], judge=judge, without=without, **conditions))
         rows = {state: min(runs[state], key=lambda run: run["cpu_s"]) for state in switches}
-        rows["off"]["rms_difference"] = self.difference(scene, skip, background)
+        rows["off"]["rms_difference"] = self.difference(scene, skip, conditions)
         for state, row in rows.items():
             self.keep("skips", scene, row, threads=self.options.threads, target="best", skip=skip,
-                      state=state, background=background or "uniform")
+                      state=state, condition=" ".join(f"{n} {v}" for n, v in conditions.items()))
         print(f"skips: {scene.label} {skip}: {rows['on']['cpu_s']:.3g} CPU s on, "
               f"{rows['off']['cpu_s']:.3g} off", flush=True)
 
-    def difference(self, scene, skip, background):
+    def difference(self, scene, skip, conditions):
         """RMS difference of all texels without a skip; from runs that are not timed."""
         with tempfile.TemporaryDirectory(dir=self.output) as folder:
             file = pathlib.Path(folder) / "values"
-            self.run_once(scene, "Sweep", SWEEP["Sweep"], background=background, values=file)
-            return self.run_once(scene, "Sweep", SWEEP["Sweep"], background=background,
-                                 without=skip, compare=file)["rms_difference"]
+            self.run_once(scene, "Sweep", SWEEP["Sweep"], values=file, **conditions)
+            return self.run_once(scene, "Sweep", SWEEP["Sweep"], without=skip,
+                                 compare=file, **conditions)["rms_difference"]
 
     def run_rays(self):
         scenes = {scene.label: scene for scene in self.some_families(FAMILIES)}
@@ -364,7 +365,7 @@ def write_shipped_references(benchmark):
     scenes = [family(name, SHORT_COUNT) for name in FAMILIES]
     scenes += [Scene(name, file, None) for name, file in FILES.items()]
     for scene in scenes:
-        benchmark.write_judge(scene, SHIPPED_REFERENCES / judge_name(scene), SHIPPED_SAMPLES)
+        benchmark.write_judge(scene, SHIPPED_REFERENCES / judge_name(scene, {}), SHIPPED_SAMPLES)
 
 
 def parse_arguments():

@@ -81,10 +81,10 @@ class TinyForm(unittest.TestCase):
     def test_skips_that_are_off_spare_nothing(self):
         rows = self.rows("skips")
         counters = {"closedCells": "spheresClosed", "neverSeen": "spheresNeverSeen",
-                    "blackSky": "directionsBlack"}
+                    "blackSky": "directionsBlack", "lonely": "particlesAlone"}
         pairs = report.skip_pairs(rows)
         self.assertEqual([pair["skip"] for pair in pairs],
-                         ["closedCells", "neverSeen", "offsetMasks", "blackSky"])
+                         ["closedCells", "neverSeen", "offsetMasks", "blackSky", "lonely"])
         for pair in pairs:
             with self.subTest(skip=pair["skip"]):
                 self.assert_positive(pair["on"], POSITIVE + OF_ERROR)
@@ -93,7 +93,8 @@ class TinyForm(unittest.TestCase):
                 if pair["skip"] in counters:
                     self.assertEqual(pair["off"][counters[pair["skip"]]], 0)
         # Directions come with their opposites, of which one is below the horizon.
-        self.assertEqual(pairs[-1]["on"]["directionsBlack"], pairs[-1]["on"]["level"] / 2)
+        black = pairs[-2]["on"]
+        self.assertEqual(black["directionsBlack"], black["level"] / 2)
 
     def test_stored_textures_are_counted(self):
         stored = [row for row in self.rows("skips") if "texturesStored" in row]
