@@ -530,6 +530,26 @@ vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesRefined()
   return static_cast<vtkIdType>(this->Impl->Refined);
 }
 
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsClosed()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.spheresClosed);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsNeverSeen()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.spheresNeverSeen);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfDirectionsBlack()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.directionsBlack);
+}
+
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesAlone()
+{
+  return static_cast<vtkIdType>(this->Impl->Counters.particlesAlone);
+}
+
 int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
 {
   return this->Impl->SamplesUsed;

@@ -213,7 +213,12 @@ public:
   vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
   vtkIdType GetNumberOfTextureBytes();     ///< size of the table
   vtkIdType GetNumberOfParticlesRefined(); ///< by rays: of Sweep with TargetError
-  const char* GetMethodUsed();             ///< what Automatic chose
+  /// Of Sweep; a visit is one particle in one direction.
+  vtkIdType GetNumberOfVisitsClosed();    ///< spared: buried under a particle in front
+  vtkIdType GetNumberOfVisitsNeverSeen(); ///< spared: no direction had shown the particle
+  vtkIdType GetNumberOfDirectionsBlack(); ///< spared: the background is black there
+  vtkIdType GetNumberOfParticlesAlone();  ///< no other within MaximumDistance
+  const char* GetMethodUsed();            ///< what Automatic chose
   int GetNumberOfDirections();  ///< of Sweep or Embree (the most of a particle), 0 otherwise
   int GetNumberOfThreads();     ///< threads that took part
   int GetNumberOfSamplesUsed(); ///< differs from SamplesPerTexel with Reference and TargetError

@@ -2,6 +2,7 @@
 #include "BruteForceVisibility.h"
 #include "EstimateDifference.h"
 #include "OcclusionBaker.h"
+#include "ProgressiveSweep.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
 #include "SyntheticSpheres.h"
@@ -435,6 +436,84 @@ TEST(SweepEstimator, WhatIsAloneWithinTheMaximumDistanceChangesNothing)
   po::BakeCounters unbounded;
   (void)estimateAll(po::SweepEstimator(), scene, settings, &unbounded);
   EXPECT_EQ(unbounded.particlesAlone, 0u);
+}
+
+TEST(ProgressiveSweep, HandsOutAPreviewAndRefinesIt)
+{
+  const po::SphereCloud cloud = cloudOf(mixedScene());
+  const po::BakeScene scene(cloud);
+  po::BakeSettings settings = floatSettings(6, 6000);
+  settings.seed = 77;
+  const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, settings);
+  std::vector<unsigned> all(cloud.spheres.size());
+  std::iota(all.begin(), all.end(), 0u);
+  po::Progress progress;
+  po::ProgressiveSweep sweep(scene, all, settings);
+  double last = 0.25; // what a preview of 16 directions stays below
+  for (const int more : { 16, 32, 144, 800 })
+  {
+    sweep.refine(more, progress);
+    Estimates ours;
+    po::BakeCounters counters;
+    sweep.handOut(
+      [&](const po::RawTextures& raw)
+      {
+        ours.values.insert(ours.values.end(), raw.values, raw.values + raw.count * 36);
+        ours.shares.insert(
+          ours.shares.end(), raw.outsideShares, raw.outsideShares + raw.count * 36);
+      },
+      progress, counters);
+    ASSERT_EQ(ours.values.size(), judge.values.size());
+    const double error = compare(ours, judge, 6).rms;
+    EXPECT_LT(error, 0.8 * last) << sweep.directions();
+    last = error;
+  }
+  EXPECT_EQ(sweep.directions(), 16 + 32 + 144 + 800);
+}
+
+TEST(SweepEstimator, SkipsSpareWorkAndKeepTheResult)
+{
+  // The same directions with each skip switched off; what rests on sampled points may differ, but
+  // by less than the error of 256 directions, 0.02.
+  const po::SphereCloud cloud = cloudOf(syntheticScene(po::SyntheticFamily::Pack, 3000));
+  const po::BakeScene scene(cloud);
+  const po::BakeSettings settings = floatSettings(6, 49);
+  const auto bake = [&](po::SweepSkips skips, po::BakeCounters& counters)
+  {
+    po::SweepOptions options;
+    options.directions = 256;
+    options.skips = skips;
+    po::Progress progress;
+    std::vector<unsigned> all(cloud.spheres.size());
+    std::iota(all.begin(), all.end(), 0u);
+    Estimates result;
+    po::SweepEstimator(options).estimate(
+      scene, all, settings, progress,
+      [&](const po::RawTextures& raw)
+      {
+        result.values.insert(result.values.end(), raw.values, raw.values + raw.count * 36);
+        result.shares.insert(
+          result.shares.end(), raw.outsideShares, raw.outsideShares + raw.count * 36);
+      },
+      counters);
+    return result;
+  };
+  po::BakeCounters counters;
+  const Estimates skipped = bake({}, counters);
+  EXPECT_GT(counters.spheresClosed, 0u);
+  EXPECT_GT(counters.spheresNeverSeen, 0u);
+  for (bool po::SweepSkips::*skip :
+    { &po::SweepSkips::closedCells, &po::SweepSkips::neverSeen, &po::SweepSkips::offsetMasks })
+  {
+    po::SweepSkips skips;
+    skips.*skip = false;
+    po::BakeCounters without;
+    const Estimates full = bake(skips, without);
+    EXPECT_LT(compare(skipped, full, 6).rms, 0.005);
+    EXPECT_LT(std::abs(compare(skipped, full, 6).bias), 0.0005);
+    EXPECT_EQ(without.spheresClosed == 0, !skips.closedCells);
+    EXPECT_EQ(without.spheresNeverSeen == 0, !skips.neverSeen);
+  }
 }
 
 TEST(SweepEstimator, AbortsWithinASecond)
