@@ -22,12 +22,12 @@ constexpr int EpochDirections = 4 * static_cast<int>(TexelPatterns::Count);
 constexpr std::size_t FirstBlock = 2; ///< axes
 
 /// All spheres take part in the first directions.
-constexpr int FullDirections = 2 * static_cast<int>(AxesPerBlock);
+constexpr int FullDirections = 48;
 
-/// After them, spheres that were never seen take part in every eighth direction only. A
-/// sphere that shows in few directions may miss the others up to its first sight: at most about 8
-/// directions' light, 8 / D of what a direction shows of it.
-constexpr std::size_t FullEvery = AxesPerBlock;
+/// After them, spheres that were never seen take part along every fourth axis only. One that shows
+/// along few axes may miss others up to its first sight. With fewer full directions, or all spheres
+/// along every eighth axis, single particles in crevices came out far too dark.
+constexpr std::size_t FullEvery = 4;
 
 /// Closed cells must spare this share of all visits, or they cost more than they save; more where
 /// offset masks make a visit cheap.
@@ -181,8 +181,9 @@ void SphereSweep::finishBlock()
     }
   }
   // The first block shows whether closed cells are worth their cost where all spheres take part,
-  // the third where the buried ones are left out.
-  if (blocks_ == 1 || blocks_ == 3)
+  // the first partial one where the buried ones are left out.
+  const bool firstPartial = directions_ == FullDirections + 2 * static_cast<int>(AxesPerBlock);
+  if (blocks_ == 1 || firstPartial)
   {
     const bool full = blocks_ == 1;
     const SweepCounters sum = counters(full);

@@ -19,7 +19,7 @@ namespace po
 struct SweepSkips
 {
   bool closedCells = true; ///< spheres under cells that one occluder closes
-  bool neverSeen = true;   ///< spheres that no direction has shown, in seven of eight directions
+  bool neverSeen = true;   ///< spheres that no direction has shown, in three of four directions
   bool offsetMasks = true; ///< tests of equal spheres against each other
   bool blackSky = true;    ///< directions that the background makes black
   bool lonely = true;      ///< spheres outside the bounded distance of any other
