@@ -144,8 +144,9 @@ void DepthTiles::sortIntoTiles()
 DepthTile DepthTiles::tile(std::size_t index) const
 {
   const auto columns = static_cast<std::size_t>(columns_);
-  return { lowX_ + static_cast<float>(index % columns) * width_,
-    lowY_ + static_cast<float>(index / columns) * width_, width_, entries_.data() + starts_[index],
-    entries_.data() + starts_[index + 1] };
+  const std::size_t row = index / columns;
+  const std::size_t column = index % columns;
+  return { lowX_ + static_cast<float>(column) * width_, lowY_ + static_cast<float>(row) * width_,
+    width_, entries_.data() + starts_[index], entries_.data() + starts_[index + 1] };
 }
 }

@@ -78,7 +78,7 @@ void OccluderCells::insert(const ProjectedSphere& sphere)
   {
     for (int column = left; column <= right; ++column)
     {
-      append(heads_[static_cast<std::size_t>(row * side_ + column)], sphere);
+      append(heads_[cellAt(row, column)], sphere);
     }
   }
 }

@@ -27,13 +27,17 @@ public:
   [[nodiscard]] OccluderList cellOf(const ProjectedSphere& receiver) const
   {
     return { chunks_.data(),
-      heads_[static_cast<std::size_t>(
-        cellIndex(receiver.y - lowY_) * side_ + cellIndex(receiver.x - lowX_))] };
+      heads_[cellAt(cellIndex(receiver.y - lowY_), cellIndex(receiver.x - lowX_))] };
   }
   [[nodiscard]] OccluderList wide() const { return { chunks_.data(), wide_ }; }
 
 private:
   [[nodiscard]] int cellIndex(float offset) const;
+  [[nodiscard]] std::size_t cellAt(int row, int column) const
+  {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
+      static_cast<std::size_t>(column);
+  }
   void append(int& head, const ProjectedSphere& sphere);
 
   std::vector<OccluderChunk> chunks_;

@@ -50,7 +50,8 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   , useOffsetMasks_(skips.offsetMasks && scene.bands().size() == 1 &&
       equalRadii(scene.bands().front()) && OffsetMasks::fits(records.texels()) &&
       !std::isfinite(distance))
-  , closedCellsPay_{ skips.closedCells && !std::isfinite(distance), closedCellsPay_[0] }
+  , closedCellsPay_{ skips.closedCells && !std::isfinite(distance),
+    skips.closedCells && !std::isfinite(distance) }
   , everSeen_(scene.size())
   , tileSweeps_([&records] { return TileWorkspace(records); })
 {
