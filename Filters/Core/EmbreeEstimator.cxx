@@ -246,7 +246,7 @@ private:
     TexelExposure exposure;
     if (!work.overlaps.caps.empty())
     {
-      exposure = exposeTexels(texels_, set.patterns(), work.overlaps.caps);
+      exposeTexels(texels_, set.patterns(), work.overlaps.caps, exposure);
       if (firstSet)
       {
         sums.makeCut(formula_.cut(exposure));
