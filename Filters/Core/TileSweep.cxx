@@ -10,7 +10,7 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
   const SweptDirection& direction, SeenMarks& seen)
 {
   band_ = band;
-  cells_.begin(tile, band.largestRadius);
+  cells_.begin(tile, band);
   if (direction.useClosedCells)
   {
     closed_.begin(tile, band.largestRadius);
