@@ -58,19 +58,16 @@ void ClosedCells::close(const ProjectedSphere& s)
 void ClosedCells::closeRow(int row, int left, int right, float z)
 {
   float* cells = height_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
-  int closed = 0;
-  if (row >= inner_ && row < side_ - inner_)
-  {
-    for (int column = std::max(left, inner_); column < std::min(right, side_ - inner_); ++column)
-    {
-      closed += cells[column] == Open ? 1 : 0;
-    }
-  }
+  const auto across = static_cast<unsigned>(side_ - 2 * inner_);
+  const unsigned reached = static_cast<unsigned>(row - inner_) < across ? across : 0;
+  unsigned closed = 0;
   for (int column = left; column < right; ++column)
   {
-    cells[column] = std::max(cells[column], z); // a closed one is higher: z falls
+    const bool open = cells[column] == Open;
+    cells[column] = open ? z : cells[column]; // a closed one is higher: z falls
+    closed += unsigned(open) & unsigned(static_cast<unsigned>(column - inner_) < reached);
   }
-  open_ -= closed;
+  open_ -= static_cast<int>(closed);
   lowest_ = closed > 0 ? z : lowest_;
 }
 
