@@ -2,6 +2,7 @@
 #ifndef po_ControllerGroup_h
 #define po_ControllerGroup_h
 
+#include "ParticleOcclusionFiltersModule.h"
 #include "ProcessGroup.h"
 
 #include <functional>
@@ -12,7 +13,7 @@ class vtkMultiProcessController;
 namespace po
 {
 /// The processes of a VTK controller, which usually speak MPI.
-class ControllerGroup : public ProcessGroup
+class PARTICLEOCCLUSIONFILTERS_EXPORT ControllerGroup : public ProcessGroup
 {
 public:
   /// @param controller borrowed; null for a process alone
@@ -38,7 +39,7 @@ private:
 /// @param error what went wrong, empty if nothing did: the same on all processes. With several it
 /// says which process it was.
 /// @return whether nothing went wrong anywhere
-[[nodiscard]] bool runTogether(
+[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT bool runTogether(
   const ProcessGroup& group, const std::function<void()>& work, std::string& error);
 }
 

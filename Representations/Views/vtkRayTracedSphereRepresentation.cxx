@@ -3,6 +3,9 @@
 
 #include "BakedTextures.h"
 #include "Blocks.h"
+#include "ControllerGroup.h"
+#include "ParticleDelivery.h"
+#include "SphereInput.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
@@ -64,6 +67,7 @@ std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
 }
 
 vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
+  : Delivered(std::make_unique<po::DeliveredParticles>())
 {
   vtkMath::UninitializeBounds(this->Bounds);
   this->Actor->SetMapper(this->Mapper);
@@ -116,7 +120,23 @@ int vtkRayTracedSphereRepresentation::RequestData(
   {
     vtkWarningMacro(<< warning);
   }
+  this->ResolveRadii();
+  const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
+  this->Piece = po::pieceToDeliver(this->Particles, group.rank(), group.size());
   return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+/// What is chosen automatically is chosen for the particles of all processes.
+void vtkRayTracedSphereRepresentation::ResolveRadii()
+{
+  const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
+  po::RadiusSettings radii{ this->RadiusArray, 1.0, this->ConstantRadius };
+  if (group.size() > 1)
+  {
+    radii = po::resolveRadii(*this->Particles, radii, group);
+  }
+  this->Mapper->SetRadiusArray(radii.array.c_str());
+  this->Mapper->SetConstantRadius(radii.constant);
 }
 
 int vtkRayTracedSphereRepresentation::ProcessViewRequest(
@@ -132,7 +152,13 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
   }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
-    this->Mapper->SetInputDataObject(vtkPVView::GetDeliveredPiece(inInfo, this));
+    std::string warning;
+    this->Mapper->SetInputDataObject(
+      this->Delivered->update(vtkPVView::GetDeliveredPiece(inInfo, this), warning));
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
     this->UpdateColoring();
   }
   return 1;
@@ -142,7 +168,7 @@ void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
 {
   if (this->Particles)
   {
-    vtkPVView::SetPiece(inInfo, this, this->Particles);
+    vtkPVView::SetPiece(inInfo, this, this->Piece);
     this->UpdateBounds();
   }
   vtkNew<vtkMatrix4x4> matrix;
@@ -186,6 +212,7 @@ void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 
 void vtkRayTracedSphereRepresentation::SetRadiusArray(const char* name)
 {
+  this->RadiusArray = name ? name : "";
   this->Mapper->SetRadiusArray(name);
   this->RadiusTime.Modified();
   this->MarkModified();
@@ -200,6 +227,7 @@ void vtkRayTracedSphereRepresentation::SetRadiusScale(double scale)
 
 void vtkRayTracedSphereRepresentation::SetConstantRadius(double radius)
 {
+  this->ConstantRadius = radius;
   this->Mapper->SetConstantRadius(radius);
   this->RadiusTime.Modified();
   this->MarkModified();

@@ -16,13 +16,20 @@
 #include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
 
+#include <memory>
 #include <string>
 
 class vtkActor;
+class vtkDataObject;
 class vtkImageData;
 class vtkPolyData;
 class vtkRayTracedSphereMapper;
 class vtkScalarsToColors;
+
+namespace po
+{
+class DeliveredParticles;
+}
 
 class PARTICLEOCCLUSIONREPRESENTATIONS_EXPORT vtkRayTracedSphereRepresentation
   : public vtkPVDataRepresentation
@@ -106,12 +113,17 @@ private:
   void operator=(const vtkRayTracedSphereRepresentation&) = delete;
 
   void ProvideData(vtkInformation* inInfo);
+  void ResolveRadii();
   void UpdateBounds();
   void UpdateColoring();
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
   vtkSmartPointer<vtkPolyData> Particles;
+  vtkSmartPointer<vtkDataObject> Piece; ///< the particles as they are delivered
+  std::unique_ptr<po::DeliveredParticles> Delivered;
+  std::string RadiusArray;
+  double ConstantRadius = 0;
   double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
   vtkTimeStamp BoundsTime;
   vtkTimeStamp RadiusTime; ///< when a parameter of the radii was last set
