@@ -20,6 +20,7 @@
 #include "vtkPVRenderView.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkProcessModule.h"
 #include "vtkProperty.h"
 #include "vtkRayTracedSphereMapper.h"
 #include "vtkRenderedLayersWriter.h"
@@ -84,6 +85,7 @@ bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
   {
     return false;
   }
+  this->View = renderView;
   renderView->GetRenderer()->AddActor(this->Actor);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::AddToView(view);
@@ -98,6 +100,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
+  this->Mapper->ReleaseSpheres();
   return this->Superclass::RemoveFromView(view);
 }
 
@@ -205,6 +208,10 @@ void vtkRayTracedSphereRepresentation::UpdateColoring()
 void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 {
   this->Actor->SetVisibility(visible);
+  if (!visible)
+  {
+    this->Mapper->ReleaseSpheres();
+  }
   this->Superclass::SetVisibility(visible);
 }
 
@@ -273,29 +280,68 @@ const char* vtkRayTracedSphereRepresentation::GetLayersFile()
   return this->LayersFile.c_str();
 }
 
+void vtkRayTracedSphereRepresentation::SetLayersResolution(int width, int height)
+{
+  this->LayersResolution[0] = width;
+  this->LayersResolution[1] = height;
+}
+
+/// The client or the server, whichever the view has chosen; ParaView calls both.
+bool vtkRayTracedSphereRepresentation::DrawsHere()
+{
+  const bool onServer = this->View && this->View->GetUseDistributedRenderingForRender();
+  switch (vtkProcessModule::GetProcessType())
+  {
+    case vtkProcessModule::PROCESS_CLIENT:
+      return !onServer;
+    case vtkProcessModule::PROCESS_SERVER:
+    case vtkProcessModule::PROCESS_RENDER_SERVER:
+      return onServer;
+    case vtkProcessModule::PROCESS_DATA_SERVER:
+      return false;
+    default:
+      return true;
+  }
+}
+
+vtkSmartPointer<vtkImageData> vtkRayTracedSphereRepresentation::MakeLayers()
+{
+  const int width = this->LayersResolution[0];
+  const int height = this->LayersResolution[1];
+  if (!this->View || (width == 0 && height == 0))
+  {
+    return this->Mapper->GetLayers();
+  }
+  return this->Mapper->RenderLayers(this->View->GetRenderer(), this->Actor, width, height);
+}
+
 void vtkRayTracedSphereRepresentation::WriteLayers()
 {
+  if (!this->DrawsHere())
+  {
+    return;
+  }
   vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  vtkImageData* layers = this->Mapper->GetLayers();
   if (this->LayersFile.empty())
   {
     vtkErrorMacro("LayersFile is empty: name the OpenEXR file to write the layers to.");
+    return;
   }
-  else if (processes && processes->GetNumberOfProcesses() > 1)
+  if (processes && processes->GetNumberOfProcesses() > 1)
   {
     vtkErrorMacro("Layers can only be written where one process draws all spheres.");
+    return;
   }
-  else if (layers->GetNumberOfPoints() == 0)
+  const vtkSmartPointer<vtkImageData> layers = this->MakeLayers();
+  if (layers->GetNumberOfPoints() == 0)
   {
-    vtkErrorMacro("There are no layers to write: render the view first.");
+    vtkErrorMacro("There are no layers to write: show the spheres and render the view first.");
+    return;
   }
-  else
-  {
-    vtkNew<vtkRenderedLayersWriter> writer; // reports its own errors
-    writer->SetInputData(layers);
-    writer->SetFileName(this->LayersFile.c_str());
-    writer->Write();
-  }
+  vtkNew<vtkRenderedLayersWriter> writer; // reports its own errors
+  writer->SetInputData(layers);
+  writer->SetFileName(this->LayersFile.c_str());
+  writer->Write();
 }
 
 vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSpheres()

@@ -15,6 +15,7 @@
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
+#include "vtkWeakPointer.h"
 
 #include <memory>
 #include <string>
@@ -22,6 +23,7 @@
 class vtkActor;
 class vtkDataObject;
 class vtkImageData;
+class vtkPVRenderView;
 class vtkPolyData;
 class vtkRayTracedSphereMapper;
 class vtkScalarsToColors;
@@ -69,10 +71,14 @@ public:
   const char* GetLayersFile();
   ///@}
 
-  /// Writes the layers of the last frame that was drawn to the LayersFile: RGBA, Z, AO, N and
-  /// particle id, of this representation alone, as vtkRenderedLayersWriter describes them. An error
-  /// says what is wrong if there is no file name, nothing has been drawn yet, the frame was drawn
-  /// by several processes together, or the file cannot be written.
+  /// Width and height of the layers, up to 65,536. Default 0 0: as large as the last frame that was
+  /// drawn.
+  void SetLayersResolution(int width, int height);
+
+  /// Writes layers of the view to the LayersFile: RGBA, Z, AO, N and particle id, of this
+  /// representation alone, as vtkRenderedLayersWriter describes them; on the process that draws. An
+  /// error says what is wrong if there is no file name, nothing has been drawn yet, several
+  /// processes draw together, or the file cannot be written.
   void WriteLayers();
 
   /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
@@ -112,6 +118,8 @@ private:
   vtkRayTracedSphereRepresentation(const vtkRayTracedSphereRepresentation&) = delete;
   void operator=(const vtkRayTracedSphereRepresentation&) = delete;
 
+  [[nodiscard]] bool DrawsHere();
+  vtkSmartPointer<vtkImageData> MakeLayers();
   void ProvideData(vtkInformation* inInfo);
   void ResolveRadii();
   void UpdateBounds();
@@ -128,6 +136,8 @@ private:
   vtkTimeStamp BoundsTime;
   vtkTimeStamp RadiusTime; ///< when a parameter of the radii was last set
   std::string LayersFile;
+  int LayersResolution[2] = { 0, 0 };
+  vtkWeakPointer<vtkPVRenderView> View;
 };
 
 #endif
