@@ -4,8 +4,11 @@
 
 #include "ParticleOcclusionFiltersModule.h"
 #include "vtkPassInputTypeAlgorithm.h"
+#include "vtkSmartPointer.h"
 
 #include <memory>
+
+class vtkMultiProcessController;
 
 /**
  * @class vtkSphereAmbientOcclusion
@@ -43,8 +46,13 @@
  * reports one error that names it and gives no output. When aborted, it passes the input on
  * unbaked.
  *
- * Under MPI every process bakes its own particles as if there were no others, and no occluders but
- * its own.
+ * The processes of Controller bake together: each gets the textures of its own particles, in the
+ * light that the particles and occluders of all processes leave. 16 bytes of each sphere travel; of
+ * those beyond MaximumDistance nothing does. Textures are the same bits for any number of processes
+ * and any distribution of the particles, but for rounding where MaximumDistance is set, and where
+ * TargetError asks for sums over processes. Duplicate points of vtkGhostType count once. Numbers
+ * about the execution are those of all processes. An error of one process is the one error of all,
+ * reported by the first; when one is aborted, so are all, as soon as they are done with their part.
  */
 class PARTICLEOCCLUSIONFILTERS_EXPORT vtkSphereAmbientOcclusion : public vtkPassInputTypeAlgorithm
 {
@@ -201,7 +209,13 @@ public:
   ///@}
 
   ///@{
-  /// What the last execution did and what it could skip.
+  /// The processes whose particles make up one set [the global controller]. Null: this one alone.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
+  ///@{
+  /// What the last execution did and what it could skip, on all processes together.
   vtkIdType GetNumberOfParticles();
   vtkIdType GetNumberOfTexels();
   vtkIdType GetNumberOfRays();
@@ -254,6 +268,7 @@ private:
   double InsideThreshold = 0.05;
   int Encoding = UInt8Gamma2;
   int Seed = 1;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
   struct Internals;
   std::unique_ptr<Internals> Impl;

@@ -66,7 +66,7 @@ void SphereRenderer::setCloud(SphereCloud cloud)
 void SphereRenderer::buildScene()
 {
   const Stopwatch watch(statistics_.buildSeconds);
-  scene_ = std::make_unique<SphereScene>(cloud_.spheres);
+  scene_ = scenes_->get(cloud_.spheres);
 }
 
 bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)

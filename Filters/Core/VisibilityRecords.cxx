@@ -30,6 +30,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , order_(order)
   , texels_(texels)
   , seed_(seed)
+  , listed_(listed)
   , patterns_(texels, seed, 0)
   , surface_(order.size())
   , cuts_(order.size())
@@ -41,10 +42,12 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
   open_.pastPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
-  for (std::size_t sphere = 0; sphere < listed.size(); ++sphere)
+  // Particles that are not listed are looked at all the same: what they hide must not depend on who
+  // asks.
+  for (unsigned sphere = 0; sphere < order.size(); ++sphere)
   {
     const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
-    surface_[sphere] = listed[sphere] != 0 ? known : Surface::NotListed;
+    surface_[sphere] = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
   }
   for (const unsigned sphere : watched)
   {
@@ -143,7 +146,7 @@ VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
 
 void VisibilityRecords::keep(unsigned sphere, std::size_t axis, const GroupMask* mask)
 {
-  if (surface_[sphere].load(std::memory_order_relaxed) == Surface::NotListed)
+  if (listed_[sphere] == 0)
   {
     return;
   }
@@ -306,13 +309,23 @@ bool VisibilityRecords::isAlone(unsigned sphere) const
   return surface_[sphere].load(std::memory_order_relaxed) == Surface::Alone;
 }
 
+std::uint64_t VisibilityRecords::countListed(Surface surface) const
+{
+  std::uint64_t count = 0;
+  for (std::size_t sphere = 0; sphere < listed_.size(); ++sphere)
+  {
+    count += listed_[sphere] != 0 && surface_[sphere].load(std::memory_order_relaxed) == surface;
+  }
+  return count;
+}
+
 std::uint64_t VisibilityRecords::alone() const
 {
-  return static_cast<std::uint64_t>(std::count(surface_.begin(), surface_.end(), Surface::Alone));
+  return countListed(Surface::Alone);
 }
 
 std::uint64_t VisibilityRecords::buried() const
 {
-  return static_cast<std::uint64_t>(std::count(surface_.begin(), surface_.end(), Surface::Buried));
+  return countListed(Surface::Buried);
 }
 }

@@ -58,7 +58,7 @@ struct OpenWeights
 class VisibilityRecords
 {
 public:
-  /// @param listed flags by sphere: whose visibility is asked for; others only occlude
+  /// @param listed flags by sphere: whose visibility is asked for
   /// @param alone flags by sphere: known to be open all over
   /// @param watched the spheres that error bars come from
   VisibilityRecords(const BakeScene& scene, const SweepScene& order, const SweepTexels& texels,
@@ -101,8 +101,8 @@ public:
   /// to.
   [[nodiscard]] std::vector<float> outsideWeights(const CutSphere& cut) const;
 
+  // Of the listed spheres.
   [[nodiscard]] std::uint64_t buried() const;
-  /// Of the listed ones.
   [[nodiscard]] std::uint64_t alone() const;
 
 private:
@@ -113,8 +113,8 @@ private:
     Whole, ///< no part is inside others
     Cut,
     Buried,
-    Alone, ///< open all over, not swept
-    NotListed
+    Alone,   ///< open all over, not swept
+    Occluder ///< no particle: never looked at, since it only occludes
   };
 
   static constexpr std::size_t ChunkSpheres = 16;
@@ -131,6 +131,7 @@ private:
   };
 
   [[nodiscard]] Surface surfaceOf(unsigned sphere);
+  [[nodiscard]] std::uint64_t countListed(Surface surface) const;
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(
     unsigned sphere, const std::vector<BuriedCap>& caps);
   /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
@@ -146,6 +147,7 @@ private:
   const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
+  std::vector<std::uint8_t> listed_; ///< flags by sphere
   std::uint32_t epoch_ = 0;
   TexelPatterns patterns_;
   OpenWeights open_;

@@ -272,11 +272,11 @@ struct UnequalScene
       }
     }
     cloud = cloudOf(particles);
-    occluders.spheres = po::makeSphereCloudLike(
-      cloud, casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
-      [&](std::size_t i) {
-        return static_cast<double>(casters[i].radius);
-      }).spheres;
+    occluders.spheres = po::makeSphereCloudLike(cloud,
+      { casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
+        [&](std::size_t i) {
+          return static_cast<double>(casters[i].radius);
+        } }).spheres;
   }
 
   po::SphereCloud cloud;
@@ -409,11 +409,11 @@ TEST(SweepEstimator, WhatIsAloneWithinTheMaximumDistanceChangesNothing)
   const po::SphereCloud cloud = cloudOf(spheres);
   po::Occluders occluders;
   const std::vector<po::Sphere> casters{ { -50, 0, 0, 1 }, { 20, 3, -0.75f, 0.5f } };
-  occluders.spheres = po::makeSphereCloudLike(
-    cloud, casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
-    [&](std::size_t i) {
-      return static_cast<double>(casters[i].radius);
-    }).spheres;
+  occluders.spheres = po::makeSphereCloudLike(cloud,
+    { casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
+      [&](std::size_t i) {
+        return static_cast<double>(casters[i].radius);
+      } }).spheres;
   const po::BakeScene scene(cloud, occluders);
   po::BakeSettings settings = floatSettings(8, 49);
   settings.maximumDistance = 0.5;

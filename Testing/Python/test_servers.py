@@ -5,12 +5,12 @@ rendering: the same picture everywhere.
 Usage: pvpython test_servers.py PVPYTHON PVBATCH PVSERVER
 """
 import os
-import re
 import subprocess
 import sys
 import tempfile
 
 import images
+import servers
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Data")
 
@@ -54,24 +54,9 @@ def run_session(executable, folder, name, port=0, threshold=0):
     return picture
 
 
-def start_server(executable):
-    """A pvserver on a port that the system chose, and that port."""
-    server = subprocess.Popen([executable, "--server-port=0"], stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
-    for line in server.stdout:
-        accepting = re.search(r"Accepting connection\(s\): .*:(\d+)", line)
-        if accepting:
-            return server, int(accepting.group(1))
-    raise SystemExit("pvserver did not start")
-
-
 def with_server(pvserver, pvpython, folder, name, threshold):
-    server, port = start_server(pvserver)
-    try:
+    with servers.running([pvserver]) as port:
         return run_session(pvpython, folder, name, port, threshold)
-    finally:
-        server.kill()
-        server.wait()
 
 
 def main():
