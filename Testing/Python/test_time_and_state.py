@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Time series, states, traces, undo, several views, and memory that is given back."""
 import os
+import sys
 import tempfile
 import unittest
 
@@ -145,8 +146,21 @@ def values(proxy, names):
     found = {}
     for name in names:
         value = proxy.GetPropertyValue(name)
-        found[name] = list(value) if hasattr(value, "__len__") and not isinstance(value, str) else value
+        if hasattr(value, "__len__") and not isinstance(value, str):
+            value = list(value) if len(value) > 1 else value[0]
+        found[name] = value
     return found
+
+
+def set_all(proxy, chosen):
+    """Sets properties as the panels of the window do, which trace that they were modified."""
+    tracing = None
+    if servermanager.vtkSMTrace.GetActiveTracer():
+        tracing = smtrace._create_trace_item_internal("PropertiesModified", kwargs={"proxy": proxy.SMProxy})
+    for name, value in chosen.items():
+        proxy.SetPropertyWithName(name, value)
+    if tracing:
+        tracing.finalize()
 
 
 class State(Session):
@@ -156,13 +170,11 @@ class State(Session):
         reader = simple.XMLPolyDataReader(registrationName="particles", FileName=[path])
         walls = simple.Plane(registrationName="walls", Origin=[-2, -2, -2], Point1=[9, -2, -2], Point2=[-2, 9, -2])
         baked = simple.SphereAmbientOcclusion(registrationName="baked", Input=reader, Occluders=walls)
-        for name, value in FILTER.items():
-            baked.SetPropertyWithName(name, value)
+        set_all(baked, FILTER)
         view = new_view()
         display = show(baked, view)
-        for proxy, chosen in ((display, DISPLAY), (view, VIEW)):
-            for name, value in chosen.items():
-                proxy.SetPropertyWithName(name, value)
+        set_all(display, DISPLAY)
+        set_all(view, VIEW)
         simple.Render(view)
 
     def check(self):
@@ -212,10 +224,13 @@ class State(Session):
         self.check()
 
     def test_changes_are_undone_and_redone(self):
-        self.make()
         stack = servermanager.vtkSMUndoStack()
         builder = servermanager.vtkSMUndoStackBuilder()
         builder.SetUndoStack(stack)
+        manager = servermanager.vtkSMProxyManager.GetProxyManager()
+        manager.SetUndoStackBuilder(builder)  # states of proxies are kept from now on
+        self.addCleanup(manager.SetUndoStackBuilder, None)
+        self.make()
         baked = simple.FindSource("baked")
         view = simple.GetActiveView()
         display = simple.GetDisplayProperties(baked, view)
@@ -224,7 +239,8 @@ class State(Session):
             before = proxy.GetPropertyValue(name)
             builder.Begin(name)
             proxy.SetPropertyWithName(name, other)
-            builder.EndAndPushToStack()
+            builder.End()
+            builder.PushToStack()
             stack.Undo()
             self.assertEqual(proxy.GetPropertyValue(name), before, name)
             stack.Redo()
@@ -294,4 +310,7 @@ class Layers(Session):
 
 if __name__ == "__main__":
     simple.LoadPlugin(PLUGIN, ns=vars(simple))
-    unittest.main()
+    done = unittest.main(exit=False)
+    # ParaView 5.11 crashes where Python ends after ResetSession.
+    sys.stderr.flush()
+    os._exit(0 if done.result.wasSuccessful() else 1)
