@@ -349,6 +349,11 @@ vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSpheres()
   return this->Mapper->GetNumberOfSpheres();
 }
 
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfScenes()
+{
+  return vtkRayTracedSphereMapper::GetNumberOfScenes();
+}
+
 vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfRays()
 {
   return this->Mapper->GetNumberOfRays();

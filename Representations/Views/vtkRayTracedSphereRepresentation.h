@@ -56,6 +56,7 @@ public:
   void SetLookupTable(vtkScalarsToColors* table);
   vtkImageData* GetLayers();
   vtkIdType GetNumberOfSpheres();
+  vtkIdType GetNumberOfScenes();
   vtkIdType GetNumberOfRays();
   vtkIdType GetNumberOfShadowRays();
   vtkIdType GetNumberOfSkippedTiles();

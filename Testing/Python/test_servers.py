@@ -36,6 +36,9 @@ display.SetRepresentationType("Ray-Traced Spheres")
 ColorBy(display, ("POINTS", "charge"))
 ResetCamera(view)
 SaveScreenshot(r"{picture}", view, ImageResolution=[300, 200])
+display.LayersFile = r"{picture}.exr"  # by the process that draws: here all see the same files
+display.LayersResolution = [450, 300]
+display.SMProxy.InvokeCommand("WriteLayers")
 if port:
     Disconnect()
 """
@@ -49,7 +52,8 @@ def run_session(executable, folder, name, port=0, threshold=0):
         file.write(SESSION.format(port=port, threshold=threshold, picture=picture,
                                   data=os.path.join(DATA, "molecule.vtp")))
     done = subprocess.run([executable, script], capture_output=True, text=True, timeout=100, check=False)
-    if done.returncode != 0 or not os.path.exists(picture):
+    complete = os.path.exists(picture) and os.path.exists(picture + ".exr")
+    if done.returncode != 0 or not complete or "ERR|" in done.stderr:
         raise SystemExit(f"{name} failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")
     return picture
 
