@@ -11,6 +11,9 @@ namespace po
 {
 namespace
 {
+/// Kibibytes that this process may use, for where the system does not say it, as in batch jobs.
+constexpr const char* MemoryLimitVariable = "PARTICLEOCCLUSION_MEMORY_LIMIT";
+
 std::string inGigabytes(double bytes)
 {
   std::ostringstream text;
@@ -23,9 +26,13 @@ std::string inGigabytes(double bytes)
 double freeMemory()
 {
   vtksys::SystemInformation system;
-  const double kibibytes = static_cast<double>(system.GetHostMemoryAvailable(nullptr)) -
+  const double ofHost = static_cast<double>(system.GetHostMemoryAvailable(nullptr)) -
     static_cast<double>(system.GetHostMemoryUsed());
-  return 1024.0 * std::max(kibibytes, 0.0);
+  const double ofProcess =
+    static_cast<double>(system.GetProcMemoryAvailable(nullptr, MemoryLimitVariable)) -
+    static_cast<double>(system.GetProcMemoryUsed());
+  constexpr double BytesPerKibibyte = 1024;
+  return BytesPerKibibyte * std::max(std::min(ofHost, ofProcess), 0.0);
 }
 
 void requireMemory(double bytes, std::size_t particles)

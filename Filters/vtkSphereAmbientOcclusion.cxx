@@ -9,6 +9,7 @@
 #include "SharedSpheres.h"
 
 #include "vtkDataObject.h"
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
@@ -235,24 +236,29 @@ int vtkSphereAmbientOcclusion::RequestData(
 {
   const auto start = std::chrono::steady_clock::now();
   *this->Impl = Internals();
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  output->ShallowCopy(input); // of a composite data set the leaves too
-
-  const po::ControllerGroup group(this->Controller);
-  const std::vector<vtkPolyData*> blocks = po::particleBlocks(output);
   vtkDataObject* occluders = vtkDataObject::GetData(inputVector[OccludersPort]);
-  std::string error;
-  if (!po::runTogether(
-        group, [&] { this->Impl->Bake(this, group, blocks, occluders); }, error))
+  const po::ControllerGroup group(this->Controller);
+  const auto bake = [&]
   {
-    output->Initialize();
+    output->ShallowCopy(input); // of a composite data set the leaves too
+    this->Impl->Bake(this, group, po::particleBlocks(output), occluders);
+  };
+  std::string error;
+  if (!po::runTogether(group, bake, error))
+  {
+    *this->Impl = Internals();
+    output->ShallowCopy(input); // without what some blocks may have got before the fault
+    this->SetErrorCode(vtkErrorCode::UserError);
     if (group.rank() == 0)
     {
       vtkErrorMacro(<< error);
     }
-    return 0;
+    return 1; // so that what is downstream shows the particles, though unbaked
   }
+  this->SetAbortOutput(false); // or the pipeline would empty the output of an aborted bake
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   this->Impl->Seconds = elapsed.count();
   return 1;

@@ -42,9 +42,14 @@ class vtkMultiProcessController;
  * from +x towards +y.
  *
  * Particles whose position or radius is NaN, infinite, zero or negative are left out with one
- * warning that counts them: row -1, visibility 0. If a parameter or array is wrong the filter
- * reports one error that names it and gives no output. When aborted, it passes the input on
- * unbaked.
+ * warning that counts them: row -1, visibility 0. If a parameter or array is wrong, memory runs
+ * out or Embree fails, the filter reports one error that says so, its error code is not
+ * vtkErrorCode::NoError, and it passes the input on unchanged: never with part of a table. When
+ * aborted, it passes the input on too, without an error.
+ *
+ * What a bake may need at most is compared with what is free before it begins: of the machine, of
+ * the limits of the process, and of the environment variable PARTICLEOCCLUSION_MEMORY_LIMIT, in
+ * KiB, for batch jobs and containers whose limit the system does not tell.
  *
  * The processes of Controller bake together: each gets the textures of its own particles, in the
  * light that the particles and occluders of all processes leave. 16 bytes of each sphere travel; of

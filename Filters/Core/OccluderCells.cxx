@@ -34,7 +34,8 @@ void OccluderCells::begin(const DepthTile& tile, const SweepScene::Band& band)
 
 int OccluderCells::cellIndex(float offset) const
 {
-  return std::clamp(static_cast<int>(offset * perCell_), 0, side_ - 1);
+  // Clamped before it is an integer: a large sphere may reach beyond all of them.
+  return static_cast<int>(std::clamp(offset * perCell_, 0.0f, static_cast<float>(side_ - 1)));
 }
 
 void OccluderCells::append(int& head, const ProjectedSphere& sphere)

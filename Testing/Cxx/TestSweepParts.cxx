@@ -2,6 +2,7 @@
 /// The parts that a sweep is made of, each by itself.
 
 #include "BackgroundIrradiance.h"
+#include "ClosedCells.h"
 #include "Constants.h"
 #include "EstimateDifference.h"
 #include "Random.h"
@@ -184,6 +185,21 @@ TEST(TexelMask, HidesByManyWhatEachOfThemHides)
   po::hideTexels(facing, many, together.data());
   EXPECT_EQ(together, oneByOne);
   EXPECT_NE(together, facing.facing);
+}
+
+TEST(ClosedCells, SpheresMayReachBeyondAllIntegers)
+{
+  po::ClosedCells cells;
+  const po::DepthTile tile{ 0, 0, 1, nullptr, nullptr };
+  cells.begin(tile, 1);
+  // In cells of half a reach its radius is far beyond 2^31: it closes all of them.
+  cells.close({ 0, 0, 5, 1e12f, 0 });
+  EXPECT_TRUE(cells.hidesAllBelow(3));
+  EXPECT_TRUE(cells.hides({ 0.5f, 0.5f, 3, 1, 1 }));
+  EXPECT_FALSE(cells.hides({ 0.5f, 0.5f, 4.5f, 1, 1 }));
+  // One that sticks out of the cells is not hidden, however far it reaches.
+  EXPECT_FALSE(cells.hides({ 1e12f, 0.5f, 3, 1e12f, 1 }));
+  EXPECT_FALSE(cells.hides({ 0.5f, 1e12f, 3, 1e12f, 1 }));
 }
 
 TEST(TexelExposure, TellsThePointsOutsideAllCaps)
