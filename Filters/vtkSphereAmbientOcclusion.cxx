@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -247,7 +248,7 @@ int vtkSphereAmbientOcclusion::RequestData(
     this->Impl->Bake(this, group, po::particleBlocks(output), occluders);
   };
   std::string error;
-  if (!po::runTogether(group, bake, error))
+  if (!po::runTogether(group, std::ref(bake), error)) // a copy would be memory that may be missing
   {
     *this->Impl = Internals();
     output->ShallowCopy(input); // without what some blocks may have got before the fault
