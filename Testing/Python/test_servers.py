@@ -39,6 +39,7 @@ SaveScreenshot(r"{picture}", view, ImageResolution=[300, 200])
 display.LayersFile = r"{picture}.exr"  # by the process that draws: here all see the same files
 display.LayersResolution = [450, 300]
 display.SMProxy.InvokeCommand("WriteLayers")
+display.SMProxy.UpdatePropertyInformation()  # waits for the process that draws
 if port:
     Disconnect()
 """
