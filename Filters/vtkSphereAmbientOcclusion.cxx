@@ -16,7 +16,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -34,31 +33,6 @@ po::Progress::Report reportTo(vtkAlgorithm* algorithm)
     algorithm->UpdateProgress(share);
     return !algorithm->CheckAbort();
   };
-}
-
-std::vector<unsigned> distinct(std::vector<unsigned> numbers)
-{
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return numbers;
-}
-
-/// From the order of `receivers`, which is ascending, to that of `places`.
-po::BakeResult inOrderOf(const std::vector<unsigned>& places,
-  const std::vector<unsigned>& receivers, po::BakeResult result)
-{
-  const std::vector<std::int32_t> rows = std::move(result.rowOf);
-  const std::vector<float> means = std::move(result.mean);
-  result.rowOf.clear();
-  result.mean.clear();
-  for (const unsigned place : places)
-  {
-    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), place);
-    const auto index = static_cast<std::size_t>(receiver - receivers.begin());
-    result.rowOf.push_back(rows[index]);
-    result.mean.push_back(means[index]);
-  }
-  return result;
 }
 }
 
@@ -109,7 +83,7 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
     group.stop(po::WorkState::Aborted);
     throw po::WorkStopped(po::WorkState::Aborted, "");
   }
-  result = inOrderOf(particles.Places, task.receivers, std::move(result));
+  result = po::inOrderOf(particles.Places, task.receivers, std::move(result));
   this->CountParticles(particles, result, settings, group);
   const double error = this->Report.estimatedError;
   if (self->TargetError > 0 && error > self->TargetError && group.rank() == 0)
@@ -176,7 +150,7 @@ po::BakeTask vtkSphereAmbientOcclusion::Internals::MakeTask(vtkSphereAmbientOccl
   task.cloud.origin = own.origin;
   task.cloud.scale = own.scale;
   task.cloud.spheres = std::move(shared.spheres);
-  task.receivers = distinct(particles.Places);
+  task.receivers = po::distinct(particles.Places);
   task.occluders = po::shareOccluders(std::move(occluders), neighbourhood, group);
   task.settings = settings;
   task.targetError = self->TargetError;

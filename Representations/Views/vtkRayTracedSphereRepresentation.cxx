@@ -100,7 +100,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
-  this->Mapper->ReleaseSpheres();
+  this->ReleaseMemory();
   return this->Superclass::RemoveFromView(view);
 }
 
@@ -205,12 +205,20 @@ void vtkRayTracedSphereRepresentation::UpdateColoring()
   this->Mapper->SelectColorArray(colored ? name : nullptr);
 }
 
+/// What the next frame would need is made again then.
+void vtkRayTracedSphereRepresentation::ReleaseMemory()
+{
+  this->Mapper->ReleaseSpheres();
+  this->Mapper->SetInputDataObject(nullptr);
+  *this->Delivered = po::DeliveredParticles();
+}
+
 void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 {
   this->Actor->SetVisibility(visible);
   if (!visible)
   {
-    this->Mapper->ReleaseSpheres();
+    this->ReleaseMemory();
   }
   this->Superclass::SetVisibility(visible);
 }

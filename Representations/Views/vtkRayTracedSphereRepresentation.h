@@ -122,6 +122,7 @@ private:
   [[nodiscard]] bool DrawsHere();
   vtkSmartPointer<vtkImageData> MakeLayers();
   void ProvideData(vtkInformation* inInfo);
+  void ReleaseMemory();
   void ResolveRadii();
   void UpdateBounds();
   void UpdateColoring();
