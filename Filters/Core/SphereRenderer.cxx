@@ -89,7 +89,7 @@ bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)
   }
   {
     const Stopwatch watch(statistics_.traceSeconds);
-    statistics_.trace = traceFrame(*scene_, *rays_, frame_);
+    statistics_.trace = traceFrame(*scene_, *rays_, {}, frame_);
   }
   ++statistics_.framesTraced;
   camera_ = camera;

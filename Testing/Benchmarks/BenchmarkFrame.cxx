@@ -187,7 +187,7 @@ void trace(benchmark::State& state)
   TraceCounters counters;
   for (auto _ : state)
   {
-    counters = traceFrame(f.scene, f.rays, frame);
+    counters = traceFrame(f.scene, f.rays, {}, frame);
   }
   finish(state, f);
   state.counters["hits"] = static_cast<double>(counters.hits);

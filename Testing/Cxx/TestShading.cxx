@@ -22,7 +22,7 @@ TEST(Shadows, SphereAboveSphereIsADiscOfItsRadius)
   const Camera camera{ down, parallel(-2, 2, -2, 2, 0, 10), 101, 101 };
   const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
   TracedFrame frame;
-  (void)traceFrame(scene, rays, frame);
+  (void)traceFrame(scene, rays, {}, frame);
   Light light;
   light.direction = { 0, -1, 0 };
   std::vector<std::uint8_t> lit;
@@ -51,7 +51,7 @@ TEST(Shadows, TheLitHalfOfALoneSphereHasNoSpeckle)
     301 };
   const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
   TracedFrame frame;
-  (void)traceFrame(scene, rays, frame);
+  (void)traceFrame(scene, rays, {}, frame);
   Light light;
   light.direction = normalized(Vec3d{ -1, -0.3, -0.1 });
   std::vector<std::uint8_t> lit;
@@ -73,7 +73,7 @@ TEST(Shadows, OccludersBehindAPositionalLightCastNone)
   const Camera camera = lookAtOrigin(true, 4.5, 0.5, 5, 5, 0.1, 20);
   const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
   TracedFrame frame;
-  (void)traceFrame(scene, rays, frame);
+  (void)traceFrame(scene, rays, {}, frame);
   Light light;
   light.positional = true;
   std::vector<std::uint8_t> lit;
@@ -173,7 +173,7 @@ protected:
   ShadedSphere()
     : rays(*PrimaryRays::make(lookAtOrigin(false, 10, 0.5, 3, 3, 1, 20), Identity))
   {
-    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, frame);
+    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, {}, frame);
     lights.front().direction = { 0, 0, -1 };
     half = OcclusionTextures(1, halfOpen.data(), rows.data(), nullptr);
   }
@@ -251,7 +251,7 @@ TEST_F(ShadedSphere, IsTheSameAtAnyScaleOfTheWorld)
   {
     const Matrix4 scaled{ s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1 };
     rays = *PrimaryRays::make(lookAtOrigin(false, 10 * s, 0.5 * s, 3, 3, s, 20 * s), scaled);
-    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, frame);
+    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, {}, frame);
     EXPECT_EQ(middle(none, m), expected) << s;
   }
 }
