@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace po
 {
@@ -83,6 +84,17 @@ public:
     }
   }
 
+  [[nodiscard]] std::uint8_t alpha(std::size_t pixel) const
+  {
+    const Material& m = in_.material;
+    if (!m.translucent)
+    {
+      return 255;
+    }
+    return m.particleColors ? m.particleColors[4 * in_.particles[in_.frame.sphere[pixel]] + 3]
+                            : toByte(static_cast<float>(m.opacity));
+  }
+
   [[nodiscard]] Vec3f shade(int x, int y, std::size_t pixel) const
   {
     const Material& m = in_.material;
@@ -133,9 +145,13 @@ private:
   [[nodiscard]] DirectLight gather(int x, int y, std::size_t pixel) const
   {
     const Vec3f normal = normalInWorld(in_.frame.normal[pixel]);
-    const Vec3d point =
-      needsPoint_ ? in_.rays.worldPoint(x + 0.5, y + 0.5, in_.frame.t[pixel]) : Vec3d{};
-    const Vec3f view = needsView_ ? in_.rays.worldDirection(x + 0.5, y + 0.5).as<float>() : Vec3f{};
+    const TracedFrame& frame = in_.frame;
+    const Vec3d point = needsPoint_
+      ? in_.rays.worldPoint(x + frame.sampleX, y + frame.sampleY, in_.frame.t[pixel])
+      : Vec3d{};
+    const Vec3f view = needsView_
+      ? in_.rays.worldDirection(x + frame.sampleX, y + frame.sampleY).as<float>()
+      : Vec3f{};
     DirectLight sum;
     for (std::size_t i = 0; i < in_.lights.size(); ++i)
     {
@@ -179,11 +195,11 @@ private:
 };
 
 /// Does the light reach the hit? One ray at most; counts what was done.
-bool isLit(const SphereScene& scene, const PrimaryRays& rays, const TracedFrame& frame,
-  const Light& light, int x, int y, std::size_t pixel, bool& traced)
+bool isLit(const SphereScene& scene, const std::uint8_t* hidden, const PrimaryRays& rays,
+  const TracedFrame& frame, const Light& light, int x, int y, std::size_t pixel, bool& traced)
 {
   const IncidentLight incident =
-    illuminate(light, rays.worldPoint(x + 0.5, y + 0.5, frame.t[pixel]));
+    illuminate(light, rays.worldPoint(x + frame.sampleX, y + frame.sampleY, frame.t[pixel]));
   const Vec3d normal = frame.normal[pixel].as<double>();
   const Vec3d toLight = transformVector(rays.worldToLocal(), incident.direction);
   // A surface that faces away is dark by itself. The sign is the same in local and world space.
@@ -196,8 +212,36 @@ bool isLit(const SphereScene& scene, const PrimaryRays& rays, const TracedFrame&
   const Vec3d origin = sphere.center().as<double>() + static_cast<double>(sphere.radius) * normal;
   const double localPerWorld = length(toLight);
   return !scene.occluded(origin.as<float>(), ((1 / localPerWorld) * toLight).as<float>(),
-    static_cast<float>(incident.distance * localPerWorld), frame.sphere[pixel]);
+    static_cast<float>(incident.distance * localPerWorld), frame.sphere[pixel], hidden);
 }
+}
+
+bool Light::operator==(const Light& o) const
+{
+  const auto all = [](const Light& l)
+  {
+    return std::tuple(l.positional, l.position.x, l.position.y, l.position.z, l.direction.x,
+      l.direction.y, l.direction.z, l.color.x, l.color.y, l.color.z, l.coneAngle, l.exponent,
+      l.attenuation, l.headlight);
+  };
+  return all(*this) == all(o);
+}
+
+bool Material::operator==(const Material& o) const
+{
+  const auto all = [](const Material& m)
+  {
+    const auto color = [](Vec3f c) { return std::tuple(c.x, c.y, c.z); };
+    return std::tuple(m.mode, m.occlusionOnDiffuse, m.lighting, m.ambient, m.diffuse, m.specular,
+      m.specularPower, color(m.ambientColor), color(m.diffuseColor), color(m.specularColor),
+      m.translucent, m.opacity, m.particleColors, m.colorsVersion);
+  };
+  return all(*this) == all(o);
+}
+
+bool Material::usesLights() const
+{
+  return mode != ShadingMode::AmbientOcclusion && lighting && (diffuse > 0 || specular > 0);
 }
 
 IncidentLight illuminate(const Light& light, Vec3d point)
@@ -221,8 +265,9 @@ IncidentLight illuminate(const Light& light, Vec3d point)
   return { direction, distance, strength };
 }
 
-ShadowCounters traceShadows(const SphereScene& scene, const PrimaryRays& rays,
-  const TracedFrame& frame, const Light& light, std::vector<std::uint8_t>& lit)
+ShadowCounters traceShadows(const SphereScene& scene, const std::uint8_t* hidden,
+  const PrimaryRays& rays, const TracedFrame& frame, const Light& light,
+  std::vector<std::uint8_t>& lit)
 {
   constexpr std::uint8_t Skipped = 2;
   lit.assign(frame.pixels(), 0);
@@ -230,7 +275,7 @@ ShadowCounters traceShadows(const SphereScene& scene, const PrimaryRays& rays,
     [&](int x, int y, std::size_t pixel)
     {
       bool traced = false;
-      const bool reached = isLit(scene, rays, frame, light, x, y, pixel, traced);
+      const bool reached = isLit(scene, hidden, rays, frame, light, x, y, pixel, traced);
       lit[pixel] = traced ? reached : Skipped;
     });
   ShadowCounters counters;
@@ -260,7 +305,7 @@ void shadeFrame(const ShadingInput& in, std::vector<std::uint8_t>& rgba)
       bytes[0] = toByte(color.x);
       bytes[1] = toByte(color.y);
       bytes[2] = toByte(color.z);
-      bytes[3] = hit ? 255 : 0;
+      bytes[3] = hit ? shader.alpha(pixel) : 0;
     }
   };
   tbb::parallel_for(0, in.frame.height, shadeRow);

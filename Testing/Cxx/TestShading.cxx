@@ -26,7 +26,7 @@ TEST(Shadows, SphereAboveSphereIsADiscOfItsRadius)
   Light light;
   light.direction = { 0, -1, 0 };
   std::vector<std::uint8_t> lit;
-  const ShadowCounters counters = traceShadows(scene, rays, frame, light, lit);
+  const ShadowCounters counters = traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_EQ(counters.rays, 101u * 101u);
   EXPECT_EQ(counters.skipped, 0u);
   for (int y = 0; y < 101; ++y)
@@ -55,7 +55,7 @@ TEST(Shadows, TheLitHalfOfALoneSphereHasNoSpeckle)
   Light light;
   light.direction = normalized(Vec3d{ -1, -0.3, -0.1 });
   std::vector<std::uint8_t> lit;
-  const ShadowCounters counters = traceShadows(scene, rays, frame, light, lit);
+  const ShadowCounters counters = traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_GT(counters.skipped, 10000u);
   for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
   {
@@ -78,10 +78,10 @@ TEST(Shadows, OccludersBehindAPositionalLightCastNone)
   light.positional = true;
   std::vector<std::uint8_t> lit;
   light.position = { 0, 0, 4 };
-  (void)traceShadows(scene, rays, frame, light, lit);
+  (void)traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_EQ(lit[12], 1);
   light.position = { 0, 0, 8 };
-  (void)traceShadows(scene, rays, frame, light, lit);
+  (void)traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_EQ(lit[12], 0);
 }
 
