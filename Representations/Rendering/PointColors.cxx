@@ -36,28 +36,35 @@ void PointColors::update(vtkPolyData& points, vtkUnsignedCharArray* mapped, vtkP
     return;
   }
   source_ = source;
-  ++version_;
-  own_.clear();
-  rgba_ = mapped ? mapped->GetPointer(0) : nullptr;
+  std::vector<std::uint8_t> colors;
   if (changesColors(styles))
   {
-    applyStyles(points, mapped, property, styles);
-    rgba_ = own_.data();
+    colors = withStyles(points, mapped, property, styles);
+  }
+  else if (mapped)
+  {
+    colors.assign(mapped->GetPointer(0), mapped->GetPointer(0) + mapped->GetNumberOfValues());
+  }
+  // VTK maps scalars again on many occasions; only other colours count.
+  if (colors != rgba_)
+  {
+    rgba_ = std::move(colors);
+    ++version_;
   }
 }
 
-void PointColors::applyStyles(vtkPolyData& points, vtkUnsignedCharArray* mapped,
+std::vector<std::uint8_t> PointColors::withStyles(vtkPolyData& points, vtkUnsignedCharArray* mapped,
   vtkProperty& property, const BlockStyles& styles)
 {
   const auto count = static_cast<std::size_t>(points.GetNumberOfPoints());
   const double* color = property.GetDiffuseColor();
   const std::array<std::uint8_t, 4> plain{ toByte(color[0]), toByte(color[1]), toByte(color[2]),
     toByte(property.GetOpacity()) };
-  own_.resize(4 * count);
+  std::vector<std::uint8_t> own(4 * count);
   for (std::size_t i = 0; i < count; ++i)
   {
     std::copy_n(mapped ? mapped->GetPointer(4 * static_cast<vtkIdType>(i)) : plain.data(), 4,
-      own_.begin() + static_cast<std::ptrdiff_t>(4 * i));
+      own.begin() + static_cast<std::ptrdiff_t>(4 * i));
   }
   const BlockTable blocks = blockTableOf(points);
   for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -70,16 +77,17 @@ void PointColors::applyStyles(vtkPolyData& points, vtkUnsignedCharArray* mapped,
     {
       if (const auto& c = style->second.color)
       {
-        own_[4 * i] = toByte(c->x);
-        own_[4 * i + 1] = toByte(c->y);
-        own_[4 * i + 2] = toByte(c->z);
+        own[4 * i] = toByte(c->x);
+        own[4 * i + 1] = toByte(c->y);
+        own[4 * i + 2] = toByte(c->z);
       }
       if (style->second.opacity)
       {
-        own_[4 * i + 3] = toByte(*style->second.opacity);
+        own[4 * i + 3] = toByte(*style->second.opacity);
       }
     }
   }
+  return own;
 }
 
 void hideInvisible(const std::vector<std::int64_t>& particles, const BlockTable& blocks,

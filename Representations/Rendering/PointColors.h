@@ -39,7 +39,7 @@ public:
     const BlockStyles& styles, std::uint64_t stylesVersion);
 
   /// Null where all points have the property's colour and opacity.
-  [[nodiscard]] const std::uint8_t* rgba() const { return rgba_; }
+  [[nodiscard]] const std::uint8_t* rgba() const { return rgba_.empty() ? nullptr : rgba_.data(); }
 
   /// Another number for other contents.
   [[nodiscard]] std::uint64_t version() const { return version_; }
@@ -48,12 +48,11 @@ private:
   using Source = std::tuple<vtkPolyData*, vtkMTimeType, vtkUnsignedCharArray*, vtkMTimeType,
     std::uint64_t, double, double, double, double>;
 
-  void applyStyles(vtkPolyData& points, vtkUnsignedCharArray* mapped, vtkProperty& property,
-    const BlockStyles& styles);
+  static std::vector<std::uint8_t> withStyles(vtkPolyData& points, vtkUnsignedCharArray* mapped,
+    vtkProperty& property, const BlockStyles& styles);
 
   Source source_{};
-  std::vector<std::uint8_t> own_; ///< where blocks have colours of their own
-  const std::uint8_t* rgba_ = nullptr;
+  std::vector<std::uint8_t> rgba_;
   std::uint64_t version_ = 0;
 };
 

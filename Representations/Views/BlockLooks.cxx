@@ -23,19 +23,24 @@ constexpr const char* ArrayName = "ParticleOcclusionHierarchy";
 
 using Ids = std::vector<unsigned>;
 
-/// Composite ids of the hierarchy's leaves below the nodes that are selected, in order.
-Ids leavesOf(vtkDataAssembly& hierarchy, const std::vector<std::string>& selectors)
+/// Flat indices of the nodes that are selected and of those below them, in order.
+Ids nodesOf(vtkDataAssembly& hierarchy, const std::vector<std::string>& selectors)
 {
-  Ids ids = vtkDataAssemblyUtilities::GetSelectedCompositeIds(selectors, &hierarchy, nullptr, true);
+  Ids ids;
+  for (const int node : hierarchy.SelectNodes(selectors))
+  {
+    const std::vector<unsigned> found = hierarchy.GetDataSetIndices(node);
+    ids.insert(ids.end(), found.begin(), found.end());
+  }
   std::sort(ids.begin(), ids.end());
   return ids;
 }
 
-/// A partitioned data set is a leaf of the hierarchy; the ids of its partitions follow its own.
-bool contains(const Ids& selected, const Ids& leaves, unsigned flatIndex)
+/// A block belongs to the node that it is, or, a partition, to the node before it.
+bool contains(const Ids& selected, const Ids& all, unsigned flatIndex)
 {
-  const auto next = std::upper_bound(leaves.begin(), leaves.end(), flatIndex);
-  return next != leaves.begin() &&
+  const auto next = std::upper_bound(all.begin(), all.end(), flatIndex);
+  return next != all.begin() &&
     std::binary_search(selected.begin(), selected.end(), *std::prev(next));
 }
 }
@@ -61,13 +66,13 @@ void BlockLooks::apply(vtkPolyData& points, vtkRayTracedSphereMapper& mapper) co
   {
     return;
   }
-  const Ids leaves = leavesOf(*hierarchy, { "/" });
+  const Ids all = nodesOf(*hierarchy, { "/" });
   const auto forEachIn = [&](const std::vector<std::string>& selectors, bool inside, const auto& f)
   {
-    const Ids selected = leavesOf(*hierarchy, selectors);
+    const Ids selected = nodesOf(*hierarchy, selectors);
     for (const PointBlock& block : blockTableOf(points))
     {
-      if (contains(selected, leaves, block.flatIndex) == inside)
+      if (contains(selected, all, block.flatIndex) == inside)
       {
         f(block.flatIndex);
       }

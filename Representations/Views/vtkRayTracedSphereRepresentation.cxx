@@ -6,6 +6,7 @@
 #include "BlockTable.h"
 #include "Blocks.h"
 #include "RefinementTimer.h"
+#include "SphereInput.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
@@ -49,6 +50,7 @@ struct vtkRayTracedSphereRepresentation::Cropping
   };
 
   std::string Array;
+  int Component = -1;
   std::array<double, 2> Limits{ -1e300, 1e300 };
   std::vector<Range> MoreRanges;
   bool Plane = false, Box = false;
@@ -306,9 +308,9 @@ void vtkRayTracedSphereRepresentation::UpdateCropping()
   crop.IsNew = false;
   this->Mapper->RemoveAllCropRanges();
   this->Mapper->RemoveAllClippingPlanes();
-  if (!crop.Array.empty() && crop.Array != "(none)")
+  if (!crop.Array.empty())
   {
-    this->Mapper->AddCropRange(crop.Array.c_str(), -1, crop.Limits[0], crop.Limits[1]);
+    this->Mapper->AddCropRange(crop.Array.c_str(), crop.Component, crop.Limits[0], crop.Limits[1]);
   }
   for (const Cropping::Range& range : crop.MoreRanges)
   {
@@ -401,9 +403,18 @@ void vtkRayTracedSphereRepresentation::RemoveAllCropRanges()
   this->Crop->IsNew = true;
 }
 
-void vtkRayTracedSphereRepresentation::SetCropArray(const char* name)
+void vtkRayTracedSphereRepresentation::SetCropArray(
+  int, int, int, int association, const char* name)
 {
-  this->Crop->Array = name ? name : "";
+  const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  const bool isOne = name && std::string(name) != po::RadiusSettings::NoArray;
+  this->Crop->Array = ofPoints && isOne ? name : "";
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropComponent(int component)
+{
+  this->Crop->Component = component;
   this->Crop->IsNew = true;
 }
 

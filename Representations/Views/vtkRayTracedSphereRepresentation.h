@@ -70,8 +70,10 @@ public:
 
   ///@{
   /// One range for the panel, beside those of AddCropRange: shows only particles whose value of the
-  /// array (the magnitude of a vector) is within it. Empty or "(none)": no cropping. Default.
-  void SetCropArray(const char* name);
+  /// array is within it. Without a name (default), or with another association than points, there
+  /// is no such range. Component -1 (default) is the magnitude.
+  void SetCropArray(int index, int port, int connection, int association, const char* name);
+  void SetCropComponent(int component);
   void SetCropRange(double low, double high);
   ///@}
 
