@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 namespace po
 {
@@ -35,6 +36,7 @@ struct Query
   const Sphere* spheres;
   unsigned id;
   Overlaps* result;
+  bool outOfMemory; ///< Embree would swallow the exception, and overlaps would be missing
 };
 
 /// How sphere `other` cuts the surface of `self`. With d from self to other, a surface point c + r
@@ -65,10 +67,17 @@ void addOverlap(const Sphere& self, const Sphere& other, Overlaps& result)
 
 bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
 {
-  const auto* query = static_cast<const Query*>(arguments->userPtr);
+  auto* query = static_cast<Query*>(arguments->userPtr);
   if (arguments->primID != query->id)
   {
-    addOverlap(query->spheres[query->id], query->spheres[arguments->primID], *query->result);
+    try
+    {
+      addOverlap(query->spheres[query->id], query->spheres[arguments->primID], *query->result);
+    }
+    catch (const std::bad_alloc&)
+    {
+      query->outOfMemory = true;
+    }
   }
   return false; // the radius of the query did not change
 }
@@ -146,17 +155,17 @@ bool visitAny(RTCPointQueryFunctionArguments* arguments)
 
 OverlapFinder::OverlapFinder(const std::vector<Sphere>& spheres)
   : spheres_(&spheres)
-  , device_(makeDevice())
-  , scene_(rtcNewScene(device_.get()))
+  , device_(makeDevice(spheres.size()))
+  , scene_(makeScene(device_.get()))
 {
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(spheres.size()));
-  rtcSetGeometryUserData(geometry, const_cast<Sphere*>(spheres.data()));
+  const GeometryHandle geometry =
+    makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER, "EMBREE_GEOMETRY_USER");
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(spheres.size()));
+  rtcSetGeometryUserData(geometry.get(), const_cast<Sphere*>(spheres.data()));
   rtcSetGeometryBoundsFunction(
-    geometry, [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_.get(), geometry);
-  rtcReleaseGeometry(geometry);
+    geometry.get(), [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(scene_.get(), geometry.get());
   rtcCommitScene(scene_.get());
   throwOnError(device_.get(), "building the search structure for overlaps");
 }
@@ -166,17 +175,22 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
   result.buried = false;
   result.caps.clear();
   const Sphere& self = (*spheres_)[id];
-  Query query{ spheres_->data(), id, &result };
+  Query query{ spheres_->data(), id, &result, false };
   RTCPointQuery point = queryAround(self, self.radius);
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(scene_.get(), &point, &context, visitNeighbour, &query);
+  if (query.outOfMemory)
+  {
+    throw std::bad_alloc();
+  }
 }
 
 void OverlapFinder::findNear(
   unsigned id, float reach, std::size_t limit, std::vector<Neighbour>& result) const
 {
   result.clear();
+  result.reserve(std::min(limit, spheres_->size())); // so that visitNear allocates nothing
   const Sphere& self = (*spheres_)[id];
   NearQuery query{ spheres_->data(), id, reach, limit, &result };
   RTCPointQuery point = queryAround(self, self.radius + reach);

@@ -16,20 +16,71 @@ constexpr double LargestLocalLength = 1e18;
 /// Radii below this square to zero in single precision.
 constexpr double SmallestLocalRadius = 1e-18;
 
+/// Where particles are and how large they may be. Kept by process, then joined.
 struct Extent
 {
   Vec3d low{ +HUGE_VAL, +HUGE_VAL, +HUGE_VAL };
   Vec3d high{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  double meanRadius = 0;
+  double largestRadius = 0;
 
-  void include(Vec3d p)
+  void include(Vec3d p, double radius)
   {
     low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
     high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
+    largestRadius = std::max(largestRadius, radius);
+  }
+
+  void join(const ProcessGroup& group)
+  {
+    for (double* number : { &high.x, &high.y, &high.z, &largestRadius })
+    {
+      *number = group.largest(*number);
+    }
+    for (double* number : { &low.x, &low.y, &low.z })
+    {
+      *number = -group.largest(-*number);
+    }
   }
 
   /// Halves before adding, so that the sum of two huge coordinates stays finite.
   [[nodiscard]] Vec3d middle() const { return 0.5 * low + 0.5 * high; }
+};
+
+/// The mean of radii, summed as integers: exact to 2^-62 of the largest, so that neither the order
+/// nor the processes they are on matter, and without overflow.
+class MeanRadius
+{
+public:
+  explicit MeanRadius(double largest)
+    : exponent_(std::ilogb(largest) + 1)
+  {
+  }
+
+  void include(double radius)
+  {
+    const auto fraction = static_cast<std::uint64_t>(std::scalbn(radius, Bits - exponent_));
+    upper_ += fraction >> HalfBits;
+    lower_ += fraction & ((std::uint64_t(1) << HalfBits) - 1);
+    ++count_;
+  }
+
+  /// Of all processes.
+  [[nodiscard]] double get(const ProcessGroup& group) const
+  {
+    const auto upper = static_cast<double>(group.sum(upper_));
+    const auto lower = static_cast<double>(group.sum(lower_));
+    const auto count = static_cast<double>(group.sum(count_));
+    return std::scalbn((std::scalbn(upper, HalfBits) + lower) / count, exponent_ - Bits);
+  }
+
+private:
+  static constexpr int Bits = 62;
+  static constexpr int HalfBits = 31;
+
+  int exponent_; ///< of a power of two above all radii
+  std::uint64_t upper_ = 0;
+  std::uint64_t lower_ = 0;
+  std::uint64_t count_ = 0;
 };
 
 /// Counts the particle under the first reason that makes it unusable; true if there is none.
@@ -65,32 +116,49 @@ bool fitsFloat(Vec3d local, double radius)
   return isWithin(local, radius) && radius > SmallestLocalRadius;
 }
 
-/// Chooses the middle and the mean radius of the usable particles; no sphere is made.
-SphereCloud emptyCloudAround(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt)
+/// Visits usable particles that are no ghosts.
+template <typename Visit>
+void forEachOwned(const ParticleSource& source, const Visit& visit)
+{
+  RejectedParticles ignored;
+  for (std::size_t i = 0; i < source.count; ++i)
+  {
+    const Vec3d position = source.positionAt(i);
+    const double radius = source.radiusAt(i);
+    if (accept(position, radius, ignored) && !(source.isGhost && source.isGhost(i)))
+    {
+      visit(position, radius);
+    }
+  }
+}
+
+/// Chooses the middle and the mean radius; no sphere is made.
+SphereCloud emptyCloudAround(const ParticleSource& source, const ProcessGroup& group)
 {
   SphereCloud cloud;
   Extent extent;
-  RejectedParticles ignored;
-  std::size_t accepted = 0;
-  for (std::size_t i = 0; i < count; ++i)
+  forEachOwned(source, [&](Vec3d position, double radius) { extent.include(position, radius); });
+  extent.join(group);
+  if (extent.largestRadius > 0)
   {
-    const Vec3d position = positionAt(i);
-    const double radius = radiusAt(i);
-    if (accept(position, radius, ignored))
-    {
-      extent.include(position);
-      // A running mean, since a sum of radii could overflow.
-      extent.meanRadius += (radius - extent.meanRadius) / static_cast<double>(++accepted);
-    }
-  }
-  if (accepted > 0)
-  {
+    MeanRadius mean(extent.largestRadius);
+    forEachOwned(source, [&](Vec3d, double radius) { mean.include(radius); });
     cloud.origin = extent.middle();
-    cloud.scale = extent.meanRadius;
+    cloud.scale = mean.get(group);
   }
   return cloud;
 }
+}
+
+RejectedParticles RejectedParticles::summed(const ProcessGroup& group) const
+{
+  RejectedParticles all = *this;
+  for (std::size_t* number :
+    { &all.nonFinitePosition, &all.nonFiniteRadius, &all.nonPositiveRadius, &all.outOfRange })
+  {
+    *number = group.sum(std::uint64_t(*number));
+  }
+  return all;
 }
 
 bool SphereCloud::inRange(Vec3d local)
@@ -98,27 +166,32 @@ bool SphereCloud::inRange(Vec3d local)
   return isFinite(local) && isWithin(local, 0);
 }
 
+SphereCloud makeSphereCloud(const ParticleSource& source, const ProcessGroup& group)
+{
+  return makeSphereCloudLike(emptyCloudAround(source, group), source);
+}
+
 SphereCloud makeSphereCloud(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
   const std::function<double(std::size_t)>& radiusAt)
 {
-  return makeSphereCloudLike(
-    emptyCloudAround(count, positionAt, radiusAt), count, positionAt, radiusAt);
+  return makeSphereCloud(ParticleSource{ count, positionAt, radiusAt, {} });
 }
 
-SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
-  const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt)
+SphereCloud makeSphereCloudLike(const SphereCloud& other, const ParticleSource& source)
 {
   SphereCloud cloud;
+  RejectedParticles ignored; // ghosts count where they are at home
   cloud.origin = other.origin;
   cloud.scale = other.scale;
-  cloud.spheres.reserve(count);
-  cloud.sourceIds.reserve(count);
-  for (std::size_t i = 0; i < count; ++i)
+  cloud.spheres.reserve(source.count);
+  cloud.sourceIds.reserve(source.count);
+  for (std::size_t i = 0; i < source.count; ++i)
   {
-    const Vec3d position = positionAt(i);
-    const double radius = radiusAt(i);
-    if (!accept(position, radius, cloud.rejected))
+    const Vec3d position = source.positionAt(i);
+    const double radius = source.radiusAt(i);
+    const bool ghost = source.isGhost && source.isGhost(i);
+    RejectedParticles& rejected = ghost ? ignored : cloud.rejected;
+    if (!accept(position, radius, rejected))
     {
       continue;
     }
@@ -126,12 +199,16 @@ SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
     const double localRadius = radius / cloud.scale;
     if (!fitsFloat(local, localRadius))
     {
-      ++cloud.rejected.outOfRange;
+      ++rejected.outOfRange;
       continue;
     }
     const Vec3f center = local.as<float>();
     cloud.spheres.push_back({ center.x, center.y, center.z, static_cast<float>(localRadius) });
     cloud.sourceIds.push_back(static_cast<std::int64_t>(i));
+    if (source.isGhost)
+    {
+      cloud.ghosts.push_back(ghost ? 1 : 0);
+    }
   }
   return cloud;
 }

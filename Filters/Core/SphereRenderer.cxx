@@ -110,7 +110,7 @@ FrameSettings SphereRenderer::settings(SamplePlace place) const
 void SphereRenderer::buildScene()
 {
   const Stopwatch watch(statistics_.buildSeconds);
-  scene_ = std::make_unique<SphereScene>(cloud_.spheres);
+  scene_ = scenes_->get(cloud_.spheres);
 }
 
 bool SphereRenderer::isCurrent(const Camera& camera, const Matrix4& modelToWorld) const

@@ -3,6 +3,7 @@
 #define po_SphereRenderer_h
 
 #include "SampleAverage.h"
+#include "SceneCache.h"
 #include "Shading.h"
 #include "SphereCloud.h"
 
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace po
@@ -55,6 +57,12 @@ struct FrameLayer
 class SphereRenderer
 {
 public:
+  /// @param scenes shared with other renderers
+  explicit SphereRenderer(std::shared_ptr<SceneCache> scenes = std::make_shared<SceneCache>())
+    : scenes_(std::move(scenes))
+  {
+  }
+
   /// New spheres, none hidden; the scene is built when the first frame asks for it.
   void setCloud(SphereCloud cloud);
 
@@ -114,9 +122,10 @@ private:
   void addRims(const TracedFrame& sample);
   [[nodiscard]] FrameSettings settings(SamplePlace place = {}) const;
 
+  std::shared_ptr<SceneCache> scenes_;
   SphereCloud cloud_;
   std::vector<std::uint8_t> hidden_;
-  std::unique_ptr<SphereScene> scene_;
+  std::shared_ptr<const SphereScene> scene_;
   std::optional<PrimaryRays> rays_;
   Camera camera_{};
   Matrix4 modelToWorld_{};

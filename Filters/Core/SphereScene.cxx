@@ -112,11 +112,11 @@ float startBeyondRounding(const std::vector<Sphere>& spheres)
 }
 
 SphereScene::SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh)
-  : device_(makeDevice())
+  : device_(makeDevice(spheres.size() + mesh.triangles.size()))
   , spheres_(std::move(spheres))
   , hasMesh_(!mesh.triangles.empty())
   , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(spheres_))
-  , scene_(rtcNewScene(device_.get()))
+  , scene_(makeScene(device_.get()))
 {
   rtcSetSceneFlags(scene_.get(), QueryFilterFlag);
   if (!spheres_.empty())
@@ -133,12 +133,8 @@ SphereScene::SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh)
 
 void SphereScene::addSpheres()
 {
-  const GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT));
-  if (!geometry)
-  {
-    throw std::runtime_error("This build of Embree has no sphere geometry: "
-                             "it was configured without EMBREE_GEOMETRY_POINT.");
-  }
+  const GeometryHandle geometry =
+    makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT, "EMBREE_GEOMETRY_POINT");
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
     spheres_.data(), 0, sizeof(Sphere), spheres_.size());
   rtcSetGeometryUserData(geometry.get(), spheres_.data());
@@ -154,12 +150,8 @@ void SphereScene::addTriangles(const OccluderMesh& mesh)
     throw std::runtime_error("This build of Embree sees triangles from one side only: "
                              "it was configured with EMBREE_BACKFACE_CULLING.");
   }
-  const GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  if (!geometry)
-  {
-    throw std::runtime_error("This build of Embree has no triangles: "
-                             "it was configured without EMBREE_GEOMETRY_TRIANGLE.");
-  }
+  const GeometryHandle geometry =
+    makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE, "EMBREE_GEOMETRY_TRIANGLE");
   // Buffers of Embree's own: it reads up to 16 bytes at the last vertex.
   copyBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices);
   copyBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);

@@ -36,6 +36,16 @@
 
 vtkStandardNewMacro(vtkRayTracedSphereMapper);
 
+namespace
+{
+/// Of all mappers of the process: they often show the same spheres in several views.
+const std::shared_ptr<po::SceneCache>& sharedScenes()
+{
+  static const auto scenes = std::make_shared<po::SceneCache>();
+  return scenes;
+}
+}
+
 struct vtkRayTracedSphereMapper::Internals
 {
   /// What the spheres were read from; they are read again when any of it changes.
@@ -47,7 +57,7 @@ struct vtkRayTracedSphereMapper::Internals
 
   Source LastSource{ nullptr, 0, {}, 0, 0 };
   std::uint64_t TexturesVersion = 0;
-  po::SphereRenderer Renderer;
+  po::SphereRenderer Renderer{ sharedScenes() };
   po::BakedTextures Baked;
   std::vector<po::CropRange> CropRanges;
   po::BlockStyles BlockStyles;
@@ -62,11 +72,13 @@ struct vtkRayTracedSphereMapper::Internals
   vtkSmartPointer<vtkImageData> Layers;
   std::uint64_t LayersVersion = 0;
 
+  std::uint64_t VersionBase = 0; ///< pictures of renderers that are gone
+
   /// Another number for other pictures.
   [[nodiscard]] std::uint64_t pictureVersion() const
   {
     const po::RenderStatistics& s = this->Renderer.statistics();
-    return 1 + s.framesTraced + s.framesShaded + s.samplesTraced;
+    return this->VersionBase + 1 + s.framesTraced + s.framesShaded + s.samplesTraced;
   }
 };
 
@@ -422,10 +434,81 @@ vtkImageData* vtkRayTracedSphereMapper::GetLayers()
   }
   else if (internal.LayersVersion != internal.pictureVersion())
   {
-    internal.Layers = po::makeLayers(internal.Renderer, internal.Baked.textures);
+    internal.Layers =
+      po::newLayers(internal.Renderer.frame().width, internal.Renderer.frame().height);
+    po::fillLayers(internal.Renderer, internal.Baked.textures, 0, internal.Layers);
     internal.LayersVersion = internal.pictureVersion();
   }
   return internal.Layers;
+}
+
+vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::RenderLayers(
+  vtkRenderer* renderer, vtkActor* actor, int width, int height)
+{
+  constexpr int largestSide = 65536;
+  constexpr int pixelsPerBand = 1 << 22;
+  if (width < 1 || height < 1 || width > largestSide || height > largestSide)
+  {
+    vtkErrorMacro("Layers must have 1 to " << largestSide << " pixels a side, not " << width
+                                           << " x " << height << ".");
+    return vtkSmartPointer<vtkImageData>::New();
+  }
+  try
+  {
+    return this->TraceLayers(renderer, actor, width, height, pixelsPerBand);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(
+      "Layers of " << width << " x " << height << " pixels cannot be made: " << error.what());
+    return vtkSmartPointer<vtkImageData>::New();
+  }
+}
+
+vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::TraceLayers(
+  vtkRenderer* renderer, vtkActor* actor, int width, int height, int pixelsPerBand)
+{
+  this->UpdateSpheres();
+  po::SphereRenderer& spheres = this->Internal->Renderer;
+  if (spheres.cloud().spheres.empty())
+  {
+    return vtkSmartPointer<vtkImageData>::New();
+  }
+  this->UpdateColors(actor);
+  this->UpdateHidden(actor);
+  this->GetLayers(); // keep those of the last frame, which is lost
+  const po::Camera camera = po::cameraOfPicture(renderer, width, height);
+  vtkSmartPointer<vtkImageData> layers = po::newLayers(width, height);
+  const int rows = std::max(1, pixelsPerBand / width);
+  for (int first = 0; first < height; first += rows)
+  {
+    const po::Camera band = po::bandOf(camera, first, std::min(rows, height - first));
+    if (!spheres.trace(band, po::placementOf(actor)))
+    {
+      return vtkSmartPointer<vtkImageData>::New();
+    }
+    this->Shade(renderer, actor, false);
+    spheres.refine(this->SamplesPerPixel);
+    po::fillLayers(spheres, this->Internal->Baked.textures, first, layers);
+  }
+  this->Internal->LayersVersion = this->Internal->pictureVersion();
+  return layers;
+}
+
+void vtkRayTracedSphereMapper::ReleaseSpheres()
+{
+  this->Internal->LastSource = { nullptr, 0, {}, 0, 0 };
+  this->Internal->LastCrop = {};
+  this->Internal->VersionBase = this->Internal->pictureVersion();
+  this->Internal->Renderer = po::SphereRenderer(sharedScenes());
+  this->Internal->Baked = {};
+  this->Internal->Layers = nullptr;
+  this->Internal->LayersVersion = 0;
+}
+
+vtkIdType vtkRayTracedSphereMapper::GetNumberOfScenes()
+{
+  return static_cast<vtkIdType>(sharedScenes()->size());
 }
 
 void vtkRayTracedSphereMapper::ReleaseGraphicsResources(vtkWindow* window)

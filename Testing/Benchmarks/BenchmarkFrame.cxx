@@ -325,7 +325,7 @@ void cropByMasks(benchmark::State& state)
 {
   const Fixture& f = fixture(state);
   const std::vector<std::uint8_t> hidden = hiddenHalf(f.cloud);
-  const DeviceHandle device = makeDevice();
+  const DeviceHandle device = makeDevice(f.cloud.spheres.size());
   if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0)
   {
     state.SkipWithError("this build of Embree has no ray masks");
