@@ -17,12 +17,13 @@ struct OcclusionContext
 {
   RayQueryContext embree; // first, so that the filter can cast back
   unsigned own;
+  const std::uint8_t* hidden; // of each sphere, or null
 };
 
 /// So many rays are faster one by one than as a packet (measured).
 constexpr unsigned FewRays = 3;
 
-/// Rejects the ray's own sphere and every sphere whose centre does not lie ahead.
+/// Rejects the ray's own sphere, hidden ones, and every sphere whose centre does not lie ahead.
 void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
 {
   const auto* spheres = static_cast<const Sphere*>(arguments->geometryUserPtr);
@@ -41,7 +42,8 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
       RTCRayN_dir_y(arguments->ray, arguments->N, i),
       RTCRayN_dir_z(arguments->ray, arguments->N, i) };
     const bool ahead = dot(spheres[id].center() - origin, direction) > 0;
-    if (id == context->own || !ahead)
+    const bool hidden = context->hidden && context->hidden[id] != 0;
+    if (id == context->own || hidden || !ahead)
     {
       arguments->valid[i] = 0;
     }
@@ -116,6 +118,7 @@ SphereScene::SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh)
   , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(spheres_))
   , scene_(makeScene(device_.get()))
 {
+  rtcSetSceneFlags(scene_.get(), QueryFilterFlag);
   if (!spheres_.empty())
   {
     addSpheres();
@@ -155,14 +158,17 @@ void SphereScene::addTriangles(const OccluderMesh& mesh)
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene_.get(), geometry.get(), TriangleGeometry);
   // Of rays aimed at edges that triangles share, 5 % slip through without this, 0.1 % with it.
-  rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(
+    scene_.get(), static_cast<RTCSceneFlags>(QueryFilterFlag | RTC_SCENE_FLAG_ROBUST));
 }
 
-bool SphereScene::occluded(Vec3f origin, Vec3f direction, float distance, unsigned own) const
+bool SphereScene::occluded(
+  Vec3f origin, Vec3f direction, float distance, unsigned own, const std::uint8_t* hidden) const
 {
   OcclusionContext context;
   initRayQueryContext(context.embree, false);
   context.own = own;
+  context.hidden = hidden;
 
   RTCRay ray;
   ray.org_x = origin.x;
@@ -196,6 +202,7 @@ unsigned SphereScene::occludedFrom(
   OcclusionContext context;
   initRayQueryContext(context.embree, true);
   context.own = own;
+  context.hidden = nullptr;
 
   alignas(64) int valid[PacketSize];
   RTCRay16 rays;

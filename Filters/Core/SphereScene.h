@@ -6,6 +6,7 @@
 #include "OccluderMesh.h"
 #include "Sphere.h"
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -52,7 +53,9 @@ public:
   /// @param direction unit vector; it must point out of sphere `own`
   /// @param distance length of the ray, infinity for an unbounded one
   /// @param own sphere the ray starts on, or None
-  [[nodiscard]] bool occluded(Vec3f origin, Vec3f direction, float distance, unsigned own) const;
+  /// @param hidden of each sphere: not 0 if the ray passes it; null: it passes none
+  [[nodiscard]] bool occluded(Vec3f origin, Vec3f direction, float distance, unsigned own,
+    const std::uint8_t* hidden = nullptr) const;
 
   /// Rays that occludedFrom() traces at once.
   static constexpr unsigned PacketSize = 16;
