@@ -151,6 +151,7 @@ class Display(unittest.TestCase):
         simple.ColorBy(display, ("POINTS", "value"))
         table = self.table("value", RGBPoints=[1, 0, 0, 0, 100, 1, 1, 1], ColorSpace="RGB")
         linear = picture(self.view)
+        self.addCleanup(setattr, table, "UseLogScale", 0)  # other tests use the table
         table.MapControlPointsToLogSpace()
         table.UseLogScale = 1
         self.assertGreater(picture(self.view).mean(), linear.mean() + 1, "most values are high on a log scale")
