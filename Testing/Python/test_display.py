@@ -249,6 +249,7 @@ class Display(unittest.TestCase):
         self.assertGreater(len(self.colours()), 3 * len(opaque), "colours mix")
         display.Opacity = 1
         self.assertEqual(self.colours(), opaque)
+        self.addCleanup(setattr, table, "EnableOpacityMapping", 0)  # other tests use the table
         table.EnableOpacityMapping = 1
         simple.GetOpacityTransferFunction("value").Points = [0, 0, 0.5, 0, 31.9, 0, 0.5, 0, 32, 1, 0.5, 0, 63, 1, 0.5, 0]
         picture(self.view)
