@@ -151,6 +151,7 @@ class Display(unittest.TestCase):
         simple.ColorBy(display, ("POINTS", "value"))
         table = self.table("value", RGBPoints=[1, 0, 0, 0, 100, 1, 1, 1], ColorSpace="RGB")
         linear = picture(self.view)
+        self.addCleanup(setattr, table, "UseLogScale", 0)  # other tests use the table
         table.MapControlPointsToLogSpace()
         table.UseLogScale = 1
         self.assertGreater(picture(self.view).mean(), linear.mean() + 1, "most values are high on a log scale")
@@ -248,6 +249,7 @@ class Display(unittest.TestCase):
         self.assertGreater(len(self.colours()), 3 * len(opaque), "colours mix")
         display.Opacity = 1
         self.assertEqual(self.colours(), opaque)
+        self.addCleanup(setattr, table, "EnableOpacityMapping", 0)  # other tests use the table
         table.EnableOpacityMapping = 1
         simple.GetOpacityTransferFunction("value").Points = [0, 0, 0.5, 0, 31.9, 0, 0.5, 0, 32, 1, 0.5, 0, 63, 1, 0.5, 0]
         picture(self.view)
