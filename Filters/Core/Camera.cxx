@@ -157,6 +157,16 @@ PrimaryRay PrimaryRays::at(double windowX, double windowY) const
     farthest * localLength, worldLength / localLength, z, w, dz / localLength, dw / localLength };
 }
 
+RayPencil PrimaryRays::around(double windowX, double windowY) const
+{
+  const auto move = [&](const WindowFunction<Vec3d>& f)
+  {
+    return WindowFunction<Vec3d>{ f.at(clipX(windowX), clipY(windowY)), (2.0 / width_) * f.dx,
+      (2.0 / height_) * f.dy };
+  };
+  return { move(localOrigin_), move(localDirection_), move(worldDirection_) };
+}
+
 Vec3d PrimaryRays::worldDirection(double x, double y) const
 {
   return normalized(worldDirection_.at(clipX(x), clipY(y)));

@@ -12,8 +12,8 @@ namespace po
 {
 namespace
 {
-constexpr int TileSize = 16;  // pixels; a tile is the unit of parallel work and of skipping
-constexpr int PacketSide = 4; // a packet is 4 x 4 rays
+constexpr int TileSize = DepthTileSize; // a tile is the unit of parallel work and of skipping
+constexpr int PacketSide = 4;           // a packet is 4 x 4 rays
 constexpr int PacketSize = PacketSide * PacketSide;
 constexpr float InfinityF = std::numeric_limits<float>::infinity();
 constexpr double Infinity = std::numeric_limits<double>::infinity();
@@ -145,6 +145,9 @@ void resize(TracedFrame& frame, int width, int height)
   frame.sphere.resize(pixels);
   frame.normal.resize(pixels);
   frame.windowDepth.resize(pixels);
+  DepthRange nothing;
+  nothing.background = true;
+  frame.tiles.assign(static_cast<std::size_t>(depthTiles(width)) * depthTiles(height), nothing);
 }
 
 /// Pixels [x0, x1) x [y0, y1) see nothing.
@@ -190,9 +193,25 @@ public:
         tracePacket(x, y, counters);
       }
     }
+    frame_.tiles[static_cast<std::size_t>(tileY) * depthTiles(frame_.width) + tileX] =
+      rangeOf(x0, y0, x1, y1);
   }
 
 private:
+  [[nodiscard]] DepthRange rangeOf(int x0, int y0, int x1, int y1) const
+  {
+    DepthRange range;
+    for (int y = y0; y < y1; ++y)
+    {
+      const double* t = frame_.t.data() + static_cast<std::ptrdiff_t>(y) * frame_.width;
+      for (int x = x0; x < x1; ++x)
+      {
+        range.add(t[x]);
+      }
+    }
+    return range;
+  }
+
   void tracePacket(int x0, int y0, TraceCounters& counters) const
   {
     PreparedRay prepared[PacketSize];
@@ -334,8 +353,8 @@ TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, Trac
     return {};
   }
   const Tracer tracer(scene, rays, frame);
-  const int columns = (frame.width + TileSize - 1) / TileSize;
-  const int rows = (frame.height + TileSize - 1) / TileSize;
+  const int columns = depthTiles(frame.width);
+  const int rows = depthTiles(frame.height);
   tbb::enumerable_thread_specific<TraceCounters> counters;
   tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows),
     [&](const tbb::blocked_range<int>& tiles)

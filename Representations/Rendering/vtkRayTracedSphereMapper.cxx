@@ -273,6 +273,11 @@ vtkImageData* vtkRayTracedSphereMapper::GetLayers()
   return this->Internal->Layers;
 }
 
+const po::SphereRenderer& vtkRayTracedSphereMapper::GetSphereRenderer() const
+{
+  return this->Internal->Renderer;
+}
+
 void vtkRayTracedSphereMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Internal->Drawer.releaseGraphicsResources(window);

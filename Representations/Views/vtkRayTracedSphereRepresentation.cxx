@@ -69,6 +69,8 @@ vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
   this->Actor->SetMapper(this->Mapper);
   // Without this an opacity below 1 would send the spheres to the translucent pass.
   this->Actor->ForceOpaqueOn();
+  this->Silhouettes->AddActor(this->Actor);
+  this->Silhouettes->LineVisibilityOff();
 }
 
 vtkRayTracedSphereRepresentation::~vtkRayTracedSphereRepresentation() = default;
@@ -81,6 +83,7 @@ bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
     return false;
   }
   renderView->GetRenderer()->AddActor(this->Actor);
+  renderView->GetRenderer()->AddViewProp(this->Silhouettes);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::AddToView(view);
 }
@@ -93,6 +96,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
     return false;
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
+  renderView->GetRenderer()->RemoveViewProp(this->Silhouettes);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::RemoveFromView(view);
 }
@@ -179,6 +183,7 @@ void vtkRayTracedSphereRepresentation::UpdateColoring()
 void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 {
   this->Actor->SetVisibility(visible);
+  this->Silhouettes->SetVisibility(visible);
   this->Superclass::SetVisibility(visible);
 }
 

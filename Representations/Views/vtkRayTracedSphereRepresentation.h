@@ -11,9 +11,11 @@
 #define vtkRayTracedSphereRepresentation_h
 
 #include "ParticleOcclusionRepresentationsModule.h"
+#include "vtkForwardSilhouettesMacro.h"
 #include "vtkNew.h"
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h"
+#include "vtkSphereSilhouettes.h"
 #include "vtkTimeStamp.h"
 
 #include <string>
@@ -68,6 +70,13 @@ public:
   /// by several processes together, or the file cannot be written.
   void WriteLayers();
 
+  ///@{
+  /// Lines where the depth jumps, in whatever render view this is shown; see vtkSphereSilhouettes.
+  /// Default: not visible. Only where one process draws all spheres: with several, a view with
+  /// silhouettes finds lines after compositing.
+  vtkForwardSilhouettesMacro(Silhouettes);
+  ///@}
+
   /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
   void SetMapScalars(int map);
 
@@ -111,6 +120,7 @@ private:
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
+  vtkNew<vtkSphereSilhouettes> Silhouettes;
   vtkSmartPointer<vtkPolyData> Particles;
   double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
   vtkTimeStamp BoundsTime;

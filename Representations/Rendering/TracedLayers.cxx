@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TracedLayers.h"
+
+#include "SphereRenderer.h"
+#include "vtkRayTracedSphereMapper.h"
+
+#include "vtkActor.h"
+#include "vtkMatrix4x4.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace po
+{
+namespace
+{
+/// World length of a unit length of an actor's coordinates, in the mean over all directions.
+double scaleOf(vtkActor* actor)
+{
+  return std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
+}
+}
+
+TracedActor tracedActorOf(vtkProp* prop, int width, int height)
+{
+  auto* actor = vtkActor::SafeDownCast(prop);
+  auto* mapper = actor ? vtkRayTracedSphereMapper::SafeDownCast(actor->GetMapper()) : nullptr;
+  if (!mapper)
+  {
+    return { nullptr, nullptr };
+  }
+  const SphereRenderer& renderer = mapper->GetSphereRenderer();
+  const TracedFrame& frame = renderer.frame();
+  const bool isCurrent = renderer.isShaded() && frame.width == width && frame.height == height;
+  return isCurrent ? TracedActor{ actor, &renderer } : TracedActor{ nullptr, nullptr };
+}
+
+TracedDepth depthOf(const std::vector<TracedActor>& actors)
+{
+  std::vector<TracedLayer> layers;
+  for (const TracedActor& one : actors)
+  {
+    layers.push_back(
+      { one.renderer->frame(), one.renderer->rays(), one.renderer->cloud().spheres });
+  }
+  return TracedDepth(std::move(layers));
+}
+
+SilhouetteScale scaleOf(const std::vector<TracedActor>& actors)
+{
+  double radii = 0, count = 0, largest = 0;
+  for (const TracedActor& one : actors)
+  {
+    const SphereCloud& cloud = one.renderer->cloud();
+    const auto particles = static_cast<double>(cloud.spheres.size());
+    radii += particles * scaleOf(one.actor) * cloud.scale;
+    count += particles;
+    largest = std::max(largest, one.actor->GetLength());
+  }
+  return { count > 0 ? radii / count : 0, largest };
+}
+
+void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth)
+{
+  windowDepth = actors.front().renderer->frame().windowDepth;
+  for (std::size_t i = 1; i < actors.size(); ++i)
+  {
+    const std::vector<float>& other = actors[i].renderer->frame().windowDepth;
+    std::transform(other.begin(), other.end(), windowDepth.begin(), windowDepth.begin(),
+      [](float a, float b) { return std::min(a, b); });
+  }
+}
+}
