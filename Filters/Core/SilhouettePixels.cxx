@@ -64,7 +64,8 @@ private:
   [[nodiscard]] float depthAt(std::size_t pixel) const
   {
     const float* depth = surroundings_.windowDepth;
-    return depth ? depth[lines_.front[pixel]] : 0;
+    // A line also covers parts of pixels that show what is in front of it.
+    return depth ? std::min(depth[lines_.front[pixel]], depth[pixel]) : 0;
   }
 
   const SilhouetteImage& lines_;

@@ -6,6 +6,8 @@
 
 #include "vtkActor.h"
 #include "vtkMatrix4x4.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,5 +71,36 @@ void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>
     std::transform(other.begin(), other.end(), windowDepth.begin(), windowDepth.begin(),
       [](float a, float b) { return std::min(a, b); });
   }
+}
+
+void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba)
+{
+  rgba = actors.front().renderer->rgba();
+  std::vector<double> nearest = actors.front().renderer->frame().t;
+  for (std::size_t i = 1; i < actors.size(); ++i)
+  {
+    const std::vector<double>& t = actors[i].renderer->frame().t;
+    const std::vector<std::uint8_t>& other = actors[i].renderer->rgba();
+    for (std::size_t pixel = 0; pixel < t.size(); ++pixel)
+    {
+      if (t[pixel] < nearest[pixel])
+      {
+        nearest[pixel] = t[pixel];
+        std::copy_n(other.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4,
+          rgba.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
+      }
+    }
+  }
+}
+
+bool isTile(vtkRenderer* renderer)
+{
+  const int* scale = renderer->GetRenderWindow()->GetTileScale();
+  return scale[0] > 1 || scale[1] > 1;
+}
+
+int tileMarginOf(const SilhouetteParameters& parameters)
+{
+  return static_cast<int>(std::max(parameters.width, parameters.maximumWidth)) + 4;
 }
 }

@@ -9,6 +9,7 @@
 
 class vtkActor;
 class vtkProp;
+class vtkRenderer;
 
 namespace po
 {
@@ -32,6 +33,16 @@ struct TracedActor
 
 /// Window depth of each pixel, the nearest of all actors.
 void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth);
+
+/// RGBA bytes of each pixel, of the nearest of all actors.
+void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba);
+
+/// Does the window show one tile of a larger picture?
+[[nodiscard]] bool isTile(vtkRenderer* renderer);
+
+/// Pixels around a tile that its lines depend on: their width, and some for the jump, the slopes
+/// and rounding.
+[[nodiscard]] int tileMarginOf(const SilhouetteParameters& parameters);
 
 /// Style of an object with vtkSilhouetteStyleMacro.
 template <typename Object>

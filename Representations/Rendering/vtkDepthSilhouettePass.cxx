@@ -3,6 +3,7 @@
 
 #include "ImageDepth.h"
 #include "Projection.h"
+#include "ShrunkCamera.h"
 #include "SilhouettePainter.h"
 #include "SilhouetteParametersOf.h"
 #include "SilhouetteRims.h"
@@ -12,8 +13,6 @@
 #include "vtkActor.h"
 #include "vtkActor2D.h"
 #include "vtkCamera.h"
-#include "vtkHomogeneousTransform.h"
-#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -22,8 +21,6 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
-#include "vtkTextureObject.h"
-#include "vtkTransform.h"
 
 #include <algorithm>
 #include <optional>
@@ -68,21 +65,13 @@ bool canBeSeen(const vtkRenderState* state)
   return viewport.width > 0 && viewport.height > 0 && windowToEyeOf(state->GetRenderer());
 }
 
-/// The window shows one tile of a larger picture.
 bool isTile(const vtkRenderState* state)
 {
-  const int* scale = windowOf(state)->GetTileScale();
-  return scale[0] > 1 || scale[1] > 1;
+  return po::isTile(state->GetRenderer());
 }
 
 /// Side of the largest frame that is drawn for samples within pixels; every OpenGL 3.2 draws it.
 constexpr int LargestFrame = 8192;
-
-/// Pixels around a tile that its lines depend on: their width, and two for the jump and the slopes.
-int marginOf(const po::SilhouetteParameters& parameters)
-{
-  return static_cast<int>(std::max(parameters.width, parameters.maximumWidth)) + 4;
-}
 
 /// Does a prop write depth?
 bool isDeep(vtkProp* prop)
@@ -147,24 +136,29 @@ void findNearest(const std::vector<float>& zBuffer, int width, int height, int s
   }
 }
 
-/// The traced frames that make up all depth of the frame buffer; empty if anything else does.
-std::vector<po::TracedActor> tracedActorsOf(const vtkRenderState* state, int width, int height)
+/// All ray-traced spheres in the frame buffer.
+std::vector<po::TracedActor> spheresOf(const vtkRenderState* state, int width, int height)
 {
   std::vector<po::TracedActor> actors;
   for (int i = 0; i < state->GetPropArrayCount(); ++i)
   {
-    vtkProp* prop = state->GetPropArray()[i];
-    const po::TracedActor actor = po::tracedActorOf(prop, width, height);
-    if (isDeep(prop) && !actor.renderer)
-    {
-      return {};
-    }
-    if (prop->GetVisibility() && actor.renderer)
+    const po::TracedActor actor = po::tracedActorOf(state->GetPropArray()[i], width, height);
+    if (actor.renderer && actor.actor->GetVisibility())
     {
       actors.push_back(actor);
     }
   }
   return actors;
+}
+
+/// The traced frames that make up all depth of the frame buffer; empty if anything else does.
+std::vector<po::TracedActor> tracedActorsOf(const vtkRenderState* state, int width, int height)
+{
+  const auto actors = spheresOf(state, width, height);
+  const auto deep = std::count_if(
+    state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount(), isDeep);
+  return deep == static_cast<std::ptrdiff_t>(actors.size()) ? actors
+                                                            : std::vector<po::TracedActor>{};
 }
 
 /// Forces translucent actors to be drawn as opaque ones while this object lives.
@@ -194,33 +188,6 @@ public:
 
 private:
   std::vector<vtkSmartPointer<vtkActor>> forced_;
-};
-
-/// The camera's picture shrinks to the middle of a larger frame while this object lives, so that
-/// its pixels stay what they are.
-class Shrink
-{
-public:
-  Shrink(vtkCamera* camera, const po::SilhouetteViewport& inner, int width, int height)
-    : camera_(camera)
-    , own_(camera->GetUserTransform())
-  {
-    vtkNew<vtkTransform> shrink;
-    shrink->Scale(
-      static_cast<double>(inner.width) / width, static_cast<double>(inner.height) / height, 1.0);
-    if (own_)
-    {
-      shrink->Concatenate(own_->GetMatrix());
-    }
-    camera_->SetUserTransform(shrink);
-  }
-  ~Shrink() { camera_->SetUserTransform(own_); }
-  Shrink(const Shrink&) = delete;
-  void operator=(const Shrink&) = delete;
-
-private:
-  vtkCamera* camera_;
-  vtkSmartPointer<vtkHomogeneousTransform> own_;
 };
 }
 
@@ -348,11 +315,6 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
   const vtkRenderState* state, int samples, int margin)
 {
   Internals& self = *this->Internal;
-  if (this->ThresholdUnit != 0)
-  {
-    return "ThresholdUnit asks for particle radii, but not all that is visible are ray-traced "
-           "spheres of this process.";
-  }
   const po::SilhouetteViewport viewport = viewportOf(state);
   std::string error = self.Painter.readDepth(windowOf(state), viewport, self.ZBuffer);
   if (!error.empty())
@@ -365,7 +327,14 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
     po::DepthImage<float>{ self.Distances.data(), viewport.width, viewport.height }, samples);
   po::SilhouetteParameters parameters = po::silhouetteParametersOf(*this);
   parameters.samples = samples;
-  const po::SilhouetteScale& scale = self.scale({ 0, po::depthSpread(depth) }, !isTile(state));
+  const auto spheres = spheresOf(state, viewport.width, viewport.height);
+  if (this->ThresholdUnit != 0 && spheres.empty())
+  {
+    return "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
+  }
+  const po::SilhouetteScale& scale = self.scale(
+    spheres.empty() ? po::SilhouetteScale{ 0, po::depthSpread(depth) } : po::scaleOf(spheres),
+    !isTile(state));
   const bool placed = !self.Actors.empty();
   po::findSilhouettes(
     depth, po::resolve(parameters, scale), self.Lines, { this->Darken || placed, true });
@@ -384,7 +353,7 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
   vtkRenderer* renderer = state->GetRenderer();
   vtkOpenGLRenderWindow* window = windowOf(state);
   const po::SilhouetteViewport tile = viewportOf(state);
-  const int margin = isTile(state) ? marginOf(po::silhouetteParametersOf(*this)) : 0;
+  const int margin = isTile(state) ? po::tileMarginOf(po::silhouetteParametersOf(*this)) : 0;
   const int width = tile.width + 2 * margin, height = tile.height + 2 * margin;
   std::vector<vtkProp*> props(
     state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
@@ -393,7 +362,8 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
     props.assign(self.Actors.begin(), self.Actors.end());
   }
   const Opaque opaque(self.Actors);
-  const Shrink shrink(renderer->GetActiveCamera(), tile, width, height);
+  const po::ShrunkCamera shrunk(renderer->GetActiveCamera(),
+    static_cast<double>(tile.width) / width, static_cast<double>(tile.height) / height);
   const bool spheres = hasOnlySpheres(props);
   const int samples = spheres ? 1 : samplesThatFit(this->Samples, width, height);
 

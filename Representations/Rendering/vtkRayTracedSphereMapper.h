@@ -124,9 +124,18 @@ public:
 
   void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
-  bool HasOpaqueGeometry() override { return true; }
-  bool HasTranslucentPolygonalGeometry() override { return false; }
-  bool GetSupportsSelection() override { return true; }
+  bool HasOpaqueGeometry() override
+  {
+    return true;
+  }
+  bool HasTranslucentPolygonalGeometry() override
+  {
+    return false;
+  }
+  bool GetSupportsSelection() override
+  {
+    return true;
+  }
 
 protected:
   vtkRayTracedSphereMapper();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSphereSilhouettes.h"
 
+#include "ShrunkCamera.h"
 #include "SilhouettePainter.h"
 #include "SilhouetteParametersOf.h"
 #include "SilhouetteRims.h"
@@ -8,7 +9,9 @@
 #include "TracedLayers.h"
 
 #include "vtkActor.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderer.h"
@@ -93,33 +96,78 @@ int vtkSphereSilhouettes::RenderVolumetricGeometry(vtkViewport* viewport)
     vtkErrorMacro(<< fault);
     return 0;
   }
-  Internals& self = *this->Internal;
   const po::SilhouetteViewport place = currentViewport(window);
-  const std::vector<po::TracedActor> actors = self.tracedActors(place);
-  if (actors.empty())
+  const bool tile = po::isTile(renderer);
+  const int margin = tile ? po::tileMarginOf(parameters) : 0;
+  std::string error;
+  if (tile)
+  {
+    error = this->FindAround(renderer, place, margin);
+  }
+  else if (!this->Find(place))
   {
     return 0;
   }
-  const po::SilhouetteRule rule = po::resolve(parameters, po::scaleOf(actors));
-  po::findTracedSilhouettes(po::depthOf(actors), rule, self.Lines, { true, true });
-  po::mergeWindowDepth(actors, self.WindowDepth);
-  po::SilhouetteSurroundings surroundings{ nullptr, self.WindowDepth.data() };
-  std::string error;
-  if (this->Darken)
-  {
-    error = self.Painter.readColors(window, place, self.Colors);
-    surroundings.rgba = self.Colors.data();
-  }
   if (error.empty())
   {
-    po::colorSilhouettes(self.Lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
-    error = self.Painter.draw(window, place, 0, self.Pixels);
+    error = this->Internal->Painter.draw(window, place, margin, this->Internal->Pixels);
   }
   if (!error.empty())
   {
     vtkErrorMacro("Silhouettes cannot be drawn: " << error);
   }
   return error.empty() ? 1 : 0;
+}
+
+bool vtkSphereSilhouettes::Find(const po::SilhouetteViewport& place)
+{
+  Internals& self = *this->Internal;
+  const std::vector<po::TracedActor> actors = self.tracedActors(place);
+  if (actors.empty())
+  {
+    self.Pixels = {};
+    return false;
+  }
+  const po::SilhouetteRule rule =
+    po::resolve(po::silhouetteParametersOf(*this), po::scaleOf(actors));
+  po::findTracedSilhouettes(po::depthOf(actors), rule, self.Lines, { true, true });
+  po::mergeWindowDepth(actors, self.WindowDepth);
+  po::SilhouetteSurroundings surroundings{ nullptr, self.WindowDepth.data() };
+  if (this->Darken)
+  {
+    po::mergeColors(actors, self.Colors);
+    surroundings.rgba = self.Colors.data();
+  }
+  po::colorSilhouettes(self.Lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
+  return true;
+}
+
+std::string vtkSphereSilhouettes::FindAround(
+  vtkRenderer* renderer, const po::SilhouetteViewport& tile, int margin)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  const int width = tile.width + 2 * margin, height = tile.height + 2 * margin;
+  vtkOpenGLState* state = window->GetState();
+  const vtkOpenGLState::ScopedglViewport viewport(state);
+  const vtkOpenGLState::ScopedglScissor scissor(state);
+  const po::ShrunkCamera shrunk(renderer->GetActiveCamera(),
+    static_cast<double>(tile.width) / width, static_cast<double>(tile.height) / height);
+  state->PushFramebufferBindings();
+  vtkNew<vtkOpenGLFramebufferObject> frame;
+  frame->SetContext(window);
+  frame->PopulateFramebuffer(width, height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
+  state->vtkglViewport(0, 0, width, height);
+  state->vtkglScissor(0, 0, width, height);
+  for (const auto& actor : this->Internal->Actors)
+  {
+    if (actor->GetVisibility())
+    {
+      actor->RenderOpaqueGeometry(renderer);
+    }
+  }
+  const bool found = this->Find({ 0, 0, width, height });
+  state->PopFramebufferBindings();
+  return found || this->Internal->Actors.empty() ? "" : "The spheres around a tile were not drawn.";
 }
 
 void vtkSphereSilhouettes::ReleaseGraphicsResources(vtkWindow* window)

@@ -22,8 +22,15 @@
 #include "vtkSilhouetteStyleMacro.h"
 
 #include <memory>
+#include <string>
 
 class vtkActor;
+class vtkRenderer;
+
+namespace po
+{
+struct SilhouetteViewport;
+}
 
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkSphereSilhouettes : public vtkProp
 {
@@ -45,6 +52,7 @@ public:
   void RemoveAllActors();
   ///@}
 
+  vtkTypeBool HasOpaqueGeometry() override { return 0; }
   int RenderVolumetricGeometry(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -55,6 +63,9 @@ protected:
 private:
   vtkSphereSilhouettes(const vtkSphereSilhouettes&) = delete;
   void operator=(const vtkSphereSilhouettes&) = delete;
+
+  bool Find(const po::SilhouetteViewport& place);
+  std::string FindAround(vtkRenderer* renderer, const po::SilhouetteViewport& tile, int margin);
 
   struct Internals;
   std::unique_ptr<Internals> Internal;
