@@ -43,6 +43,21 @@ def widened(mask):
     return numpy.logical_or.reduce(shifts)
 
 
+def plain_view(view):
+    view.ViewSize = SIZE
+    view.UseFXAA = 0
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = (0.0, 1.0, 0.0)
+    return view
+
+
+def aim_camera(view):
+    simple.ResetCamera(view)
+    view.GetActiveCamera().Azimuth(30)
+    view.GetActiveCamera().Elevation(20)
+
+
 class SilhouetteView(unittest.TestCase):
     def setUp(self):
         self.view = simple.CreateView("RenderViewWithSilhouettes")
@@ -115,21 +130,15 @@ class LinesOfARepresentation(unittest.TestCase):
     """Lines in ParaView's plain render view."""
 
     def setUp(self):
-        self.view = simple.CreateRenderView()
-        self.view.ViewSize = SIZE
-        self.view.UseFXAA = 0
-        self.view.OrientationAxesVisibility = 0
-        self.view.UseColorPaletteForBackground = 0
-        self.view.Background = (0.0, 1.0, 0.0)
+        self.view = plain_view(simple.CreateRenderView())
         self.source = simple.ConvertToPointCloud(Input=simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6]))
         self.display = simple.Show(self.source, self.view)
         self.display.SetRepresentationType("Ray-Traced Spheres")
+        self.display.RadiusArray = "(none)"
         self.display.ConstantRadius = 0.4
         self.display.SilhouetteColor = [channel / 255 for channel in COLOR]
         self.display.SilhouetteSamples = 1
-        simple.ResetCamera(self.view)
-        self.view.GetActiveCamera().Azimuth(30)
-        self.view.GetActiveCamera().Elevation(20)
+        aim_camera(self.view)
 
     def tearDown(self):
         simple.Delete(self.view)
@@ -149,16 +158,15 @@ class LinesOfARepresentation(unittest.TestCase):
         self.assertFalse(lines(picture(self.view)).any())
 
     def test_equals_the_special_view(self):
-        special = simple.CreateView("RenderViewWithSilhouettes")
-        for name in ("ViewSize", "UseFXAA", "OrientationAxesVisibility", "UseColorPaletteForBackground",
-                     "Background"):
-            setattr(special, name, getattr(self.view, name))
-        special.SilhouetteColor = self.display.SilhouetteColor
+        special = plain_view(simple.CreateView("RenderViewWithSilhouettes"))
+        special.SilhouetteColor = [channel / 255 for channel in COLOR]
         display = simple.Show(self.source, special)
         display.SetRepresentationType("Ray-Traced Spheres")
+        display.RadiusArray = "(none)"
         display.ConstantRadius = 0.4
-        for name in ("CameraPosition", "CameraFocalPoint", "CameraViewUp", "CameraViewAngle"):
-            setattr(special, name, getattr(self.view, name))
+        aim_camera(special)
+        for view in (self.view, special):
+            picture(view)  # the colour map is fitted to the data by the first pictures
         self.display.SilhouetteVisibility = 1
         for samples in (1, 4):
             self.display.SilhouetteSamples = special.SilhouetteSamples = samples
