@@ -27,11 +27,11 @@ ROWS = [
     ("Grey follows the jump; width follows it too",
      {**LINES, "SilhouetteLineDensity": 0.7, "SilhouetteGreyByJump": 1},
      {**LINES, "SilhouetteLineDensity": 0.7, "SilhouetteGreyByJump": 1, "SilhouetteWidthByJump": 1,
-      "SilhouetteMaximumLineWidth": 4}),
+      "SilhouetteMaximumLineWidth": 2.5}),
     ("Darkened colours of the particles in place of black; no lines against the background",
      {**LINES, "SilhouetteDarken": 1}, {**LINES, "SilhouetteBackgroundLines": 0}),
 ]
-DEFAULTS = {"SilhouetteVisibility": 0, "SilhouetteSamples": 4, "SilhouetteSlopeTest": 1,
+DEFAULTS = {"SilhouetteVisibility": 0, "SilhouetteMaximumLineWidth": 3, "SilhouetteSamples": 4, "SilhouetteSlopeTest": 1,
             "SilhouetteLineDensity": 0.5, "SilhouetteGreyByJump": 0, "SilhouetteWidthByJump": 0,
             "SilhouetteDarken": 0, "SilhouetteBackgroundLines": 1}
 DATA = [("bullet_1000.vtp", "damage", 30, -52, 1.5), ("heap.vtp", "speed", 10, 20, 1.4),
