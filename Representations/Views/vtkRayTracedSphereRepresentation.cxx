@@ -138,8 +138,22 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
   {
     this->Mapper->SetInputDataObject(vtkPVView::GetDeliveredPiece(inInfo, this));
     this->UpdateColoring();
+    this->UpdateSilhouettes();
   }
   return 1;
+}
+
+void vtkRayTracedSphereRepresentation::UpdateSilhouettes()
+{
+  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
+  const bool alone = !processes || processes->GetNumberOfProcesses() == 1;
+  if (!alone && this->Silhouettes->GetLineVisibility() && this->Silhouettes->GetVisibility() &&
+    processes->GetLocalProcessId() == 0)
+  {
+    vtkWarningMacro("Several processes draw these spheres, and none knows all depths before the "
+                    "picture is composited: use Render View (Silhouettes) for lines.");
+  }
+  this->Silhouettes->SetVisibility(alone && this->Actor->GetVisibility());
 }
 
 void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)

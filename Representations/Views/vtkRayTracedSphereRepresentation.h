@@ -117,6 +117,7 @@ private:
   void ProvideData(vtkInformation* inInfo);
   void UpdateBounds();
   void UpdateColoring();
+  void UpdateSilhouettes();
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
