@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthSilhouettes.h"
 
-#include "DepthLaplacian.h"
+#include "ImageDepth.h"
+#include "SilhouetteFinder.h"
+#include "SilhouetteParametersOf.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -14,8 +16,10 @@
 #include "vtkPointData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
-#include <vector>
+#include <type_traits>
 
 vtkStandardNewMacro(vtkDepthSilhouettes);
 
@@ -48,12 +52,37 @@ vtkIdType pixelsOfSlice(const int extent[6])
   return static_cast<vtkIdType>(extent[1] - extent[0] + 1) * (extent[3] - extent[2] + 1);
 }
 
-/// The slice `k` (from 0) of an array that fills `extent`.
-template <typename T>
-po::DepthImage<T> slice(const T* depth, const int extent[6], int k)
+/// An image of s x s samples a pixel becomes one of pixels: the origin moves to the middle of the
+/// first pixel's samples.
+void coarsen(int samples, int extent[6], double spacing[3], double origin[3])
 {
-  return { depth + k * pixelsOfSlice(extent), extent[1] - extent[0] + 1,
-    extent[3] - extent[2] + 1 };
+  for (int axis = 0; axis < 2; ++axis)
+  {
+    const int count = (extent[2 * axis + 1] - extent[2 * axis] + 1) / samples;
+    origin[axis] += spacing[axis] * (extent[2 * axis] + 0.5 * (samples - 1));
+    spacing[axis] *= samples;
+    extent[2 * axis] = 0;
+    extent[2 * axis + 1] = count - 1;
+  }
+}
+
+/// The input itself, or an empty image of the coarser size.
+void prepareOutput(vtkImageData* input, int samples, vtkImageData* output)
+{
+  if (samples == 1)
+  {
+    output->ShallowCopy(input);
+    return;
+  }
+  int extent[6];
+  double spacing[3], origin[3];
+  input->GetExtent(extent);
+  input->GetSpacing(spacing);
+  input->GetOrigin(origin);
+  coarsen(samples, extent, spacing, origin);
+  output->SetExtent(extent);
+  output->SetSpacing(spacing);
+  output->SetOrigin(origin);
 }
 
 /// Calls `work` with the array's values as const float* or const double*.
@@ -71,30 +100,37 @@ void withValues(vtkDataArray* depth, Work work)
 }
 }
 
-struct vtkDepthSilhouettes::Internals
-{
-  vtkDataArray* Depth = nullptr;
-  /// One a slice, resolved before the threads start.
-  std::vector<po::EdgeRule> Rules;
-};
-
-vtkDepthSilhouettes::vtkDepthSilhouettes()
-  : Internal(std::make_unique<Internals>())
-{
-  // VTK's multi-threader is parallel in every build; vtkSMPTools may have a sequential backend.
-  this->EnableSMP = false;
-}
-
+vtkDepthSilhouettes::vtkDepthSilhouettes() = default;
 vtkDepthSilhouettes::~vtkDepthSilhouettes() = default;
 
-bool vtkDepthSilhouettes::CheckParameters()
+bool vtkDepthSilhouettes::CheckParameters(const int extent[6])
 {
-  const std::string fault = po::faultOf({ this->Threshold, this->BackgroundDepth });
+  const std::string fault = po::faultOf(po::silhouetteParametersOf(*this));
+  const int columns = extent[1] - extent[0] + 1, rows = extent[3] - extent[2] + 1;
   if (!fault.empty())
   {
     vtkErrorMacro(<< fault);
   }
-  return fault.empty();
+  else if (!(this->ParticleRadius >= 0.0 && std::isfinite(this->ParticleRadius)))
+  {
+    vtkErrorMacro(
+      "ParticleRadius is " << this->ParticleRadius << "; it must be a length >= 0 (0: not known).");
+  }
+  else if (this->ThresholdUnit != 0 && this->ParticleRadius == 0.0)
+  {
+    vtkErrorMacro("ThresholdUnit asks for particle radii: set ParticleRadius.");
+  }
+  else if (columns % this->Samples != 0 || rows % this->Samples != 0)
+  {
+    vtkErrorMacro("The image has " << columns << " x " << rows
+                                   << " depths, which is no multiple of Samples (" << this->Samples
+                                   << ").");
+  }
+  else
+  {
+    return true;
+  }
+  return false;
 }
 
 vtkDataArray* vtkDepthSilhouettes::FindDepth(
@@ -132,9 +168,24 @@ vtkDataArray* vtkDepthSilhouettes::FindDepth(
 }
 
 int vtkDepthSilhouettes::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkDataObject::SetPointDataActiveScalarInfo(outputVector->GetInformationObject(0), VTK_FLOAT, 1);
+  vtkInformation* info = outputVector->GetInformationObject(0);
+  vtkDataObject::SetPointDataActiveScalarInfo(info, VTK_FLOAT, 1);
+  int extent[6];
+  double spacing[3], origin[3];
+  vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);
+  inputInfo->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  if (po::isSampleCount(this->Samples) && this->Samples > 1 &&
+    inputInfo->Has(vtkDataObject::SPACING()) && inputInfo->Has(vtkDataObject::ORIGIN()))
+  {
+    inputInfo->Get(vtkDataObject::SPACING(), spacing);
+    inputInfo->Get(vtkDataObject::ORIGIN(), origin);
+    coarsen(this->Samples, extent, spacing, origin);
+    info->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent, 6);
+    info->Set(vtkDataObject::SPACING(), spacing, 3);
+    info->Set(vtkDataObject::ORIGIN(), origin, 3);
+  }
   return 1;
 }
 
@@ -149,75 +200,48 @@ int vtkDepthSilhouettes::RequestUpdateExtent(
   return 1;
 }
 
-void vtkDepthSilhouettes::PrepareImageData(vtkInformationVector** inputVector,
-  vtkInformationVector* outputVector, vtkImageData*** inDataObjects, vtkImageData** outDataObjects)
+int vtkDepthSilhouettes::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkImageData* input = vtkImageData::GetData(inputVector[0]);
   vtkImageData* output = vtkImageData::GetData(outputVector);
-  output->ShallowCopy(input);
-
-  vtkNew<vtkFloatArray> silhouette;
-  silhouette->SetName(SilhouetteName);
-  silhouette->SetNumberOfTuples(input->GetNumberOfPoints());
-  output->GetPointData()->AddArray(silhouette); // SetScalars would drop the input's scalars
-  output->GetPointData()->SetActiveScalars(SilhouetteName);
-
-  inDataObjects[0][0] = input;
-  outDataObjects[0] = output;
-}
-
-int vtkDepthSilhouettes::RequestData(
-  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  vtkImageData* input = vtkImageData::GetData(inputVector[0]);
-  vtkDataArray* depth = this->CheckParameters() ? this->FindDepth(input, inputVector) : nullptr;
+  int extent[6];
+  input->GetExtent(extent);
+  vtkDataArray* depth =
+    this->CheckParameters(extent) ? this->FindDepth(input, inputVector) : nullptr;
   if (!depth)
   {
     return 0;
   }
-
-  int extent[6];
-  input->GetExtent(extent);
-  const po::SilhouetteParameters parameters{ this->Threshold, this->BackgroundDepth };
-  this->Internal->Depth = depth;
-  this->Internal->Rules.clear();
+  prepareOutput(input, this->Samples, output);
+  vtkNew<vtkFloatArray> silhouette;
+  silhouette->SetName(SilhouetteName);
+  silhouette->SetNumberOfTuples(output->GetNumberOfPoints());
+  const int width = extent[1] - extent[0] + 1, height = extent[3] - extent[2] + 1;
+  const po::SilhouetteParameters parameters = po::silhouetteParametersOf(*this);
   withValues(depth,
     [&](const auto* values)
     {
+      using T = std::decay_t<decltype(*values)>;
+      po::SilhouetteImage lines;
+      float* strength = silhouette->GetPointer(0);
       for (int k = 0; k <= extent[5] - extent[4]; ++k)
       {
-        const auto farthest = po::farthestDepth(slice(values, extent, k));
-        this->Internal->Rules.push_back(po::resolveEdgeRule(parameters, farthest));
+        const po::ImageDepth<T> source(
+          po::DepthImage<T>{ values + k * pixelsOfSlice(extent), width, height }, this->Samples);
+        const po::SilhouetteScale scale{ this->ParticleRadius, po::depthSpread(source) };
+        po::findSilhouettes(source, po::resolve(parameters, scale), lines);
+        strength = std::copy(lines.strength.begin(), lines.strength.end(), strength);
       }
     });
-
-  const int done = this->Superclass::RequestData(request, inputVector, outputVector);
-  this->Internal->Depth = nullptr;
-  return done;
-}
-
-void vtkDepthSilhouettes::ThreadedRequestData(vtkInformation*, vtkInformationVector**,
-  vtkInformationVector*, vtkImageData***, vtkImageData** outData, int piece[6], int)
-{
-  int extent[6];
-  outData[0]->GetExtent(extent);
-  auto* silhouette = vtkFloatArray::SafeDownCast(outData[0]->GetPointData()->GetScalars());
-  const po::PixelBlock block{ piece[0] - extent[0], piece[1] - extent[0] + 1, piece[2] - extent[2],
-    piece[3] - extent[2] + 1 };
-  withValues(this->Internal->Depth,
-    [&](const auto* values)
-    {
-      for (int k = piece[4] - extent[4]; k <= piece[5] - extent[4]; ++k)
-      {
-        po::markSilhouettes(slice(values, extent, k), this->Internal->Rules[k], block,
-          silhouette->GetPointer(k * pixelsOfSlice(extent)));
-      }
-    });
+  output->GetPointData()->AddArray(silhouette); // SetScalars would drop the input's scalars
+  output->GetPointData()->SetActiveScalars(SilhouetteName);
+  return 1;
 }
 
 void vtkDepthSilhouettes::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Threshold: " << this->Threshold << "\n";
-  os << indent << "BackgroundDepth: " << this->BackgroundDepth << "\n";
+  po::print(os, indent, po::silhouetteParametersOf(*this));
+  os << indent << "ParticleRadius: " << this->ParticleRadius << "\n";
 }

@@ -9,53 +9,51 @@
  * SetInputArrayToProcess, the active scalars are taken if they are of that kind, else the array
  * "Z", else "depth". An image of several slices is a stack of depth images; each is its own.
  *
- * Output: the input with all its arrays and, as active scalars, the one-component float array
- * "Silhouette": edge strength, 1 on the line and 0 elsewhere.
+ * Output: as active scalars the one-component float array "Silhouette": strength of the line, 0 to
+ * 1. With Samples 1 (the default) the output is the input with all its arrays and this one. With
+ * Samples s the input has s x s depths a pixel, as from a renderer that was asked for an image s
+ * times as large, and the output is an image of 1/s of its size with this array alone: lines are
+ * antialiased and their widths are in pixels of the output.
  *
- * A pixel is an edge where the Laplacian 8 t(centre) - sum of t(8 neighbours) exceeds Threshold.
- * Only this positive side counts, so that a jump gives one line; it lies on the pixels just behind
- * the jump, around the object in front. The border of the image is repeated beyond it.
+ * What is a line, see vtkSilhouetteParametersMacro: in short, a sample where the Laplacian
+ * 8 t(centre) - sum of t(8 neighbours) exceeds Threshold. Only this positive side counts, so that a
+ * jump gives one line; it lies behind the jump, around the object in front. The border of the image
+ * is repeated beyond it. An automatic threshold is three times the jump of two ParticleRadius, or
+ * of 1/50 of the spread of the visible depths (5th to 95th percentile) where that is more.
  *
  * vtkDepthSilhouettePass draws the same lines on screen. vtkZBufferToDepth makes the depth image
  * from a z-buffer.
  *
  * Errors, with no output array: no such array, an array of the wrong type or number of components,
- * a negative or non-finite Threshold or BackgroundDepth.
+ * a parameter out of its range, ThresholdUnit 1 without ParticleRadius, an image whose size is no
+ * multiple of Samples.
  */
 #ifndef vtkDepthSilhouettes_h
 #define vtkDepthSilhouettes_h
 
 #include "ParticleOcclusionFiltersModule.h"
-#include "vtkThreadedImageAlgorithm.h"
-
-#include <memory>
+#include "vtkImageAlgorithm.h"
+#include "vtkSilhouetteParametersMacro.h"
 
 class vtkDataArray;
 
-class PARTICLEOCCLUSIONFILTERS_EXPORT vtkDepthSilhouettes : public vtkThreadedImageAlgorithm
+class PARTICLEOCCLUSIONFILTERS_EXPORT vtkDepthSilhouettes : public vtkImageAlgorithm
 {
 public:
   static vtkDepthSilhouettes* New();
-  vtkTypeMacro(vtkDepthSilhouettes, vtkThreadedImageAlgorithm);
+  vtkTypeMacro(vtkDepthSilhouettes, vtkImageAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /**
-   * Laplacian above which a pixel is an edge, in world units, >= 0. A straight jump of depth J has
-   * the value 3 J. 0 (the default) is automatic: 1/100 of the farthest depth in the image.
-   */
-  vtkSetMacro(Threshold, double);
-  vtkGetMacro(Threshold, double);
-  ///@}
+  vtkSilhouetteParametersMacro(1);
 
+public:
   ///@{
   /**
-   * Depth of the background, in world units, >= 0. 0 (the default) is automatic: behind the
-   * farthest geometry by twice the threshold (the automatic one if that is larger), so that the
-   * outline against the background is always drawn.
+   * Mean radius of the particles in world units, >= 0, for ThresholdUnit 1 and the automatic
+   * threshold. 0 (default): not known.
    */
-  vtkSetMacro(BackgroundDepth, double);
-  vtkGetMacro(BackgroundDepth, double);
+  vtkSetMacro(ParticleRadius, double);
+  vtkGetMacro(ParticleRadius, double);
   ///@}
 
 protected:
@@ -68,24 +66,15 @@ protected:
     vtkInformationVector* outputVector) override;
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
-  void PrepareImageData(vtkInformationVector** inputVector, vtkInformationVector* outputVector,
-    vtkImageData*** inDataObjects, vtkImageData** outDataObjects) override;
-  void ThreadedRequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector, vtkImageData*** inData, vtkImageData** outData,
-    int extent[6], int threadId) override;
 
-  double Threshold = 0.0;
-  double BackgroundDepth = 0.0;
+  double ParticleRadius = 0.0;
 
 private:
   vtkDepthSilhouettes(const vtkDepthSilhouettes&) = delete;
   void operator=(const vtkDepthSilhouettes&) = delete;
 
-  bool CheckParameters();
+  bool CheckParameters(const int extent[6]);
   vtkDataArray* FindDepth(vtkImageData* input, vtkInformationVector** inputVector);
-
-  struct Internals;
-  std::unique_ptr<Internals> Internal;
 };
 
 #endif

@@ -200,6 +200,17 @@ PrimaryRay PrimaryRays::at(double windowX, double windowY) const
     farthest * localLength, worldPerLocal, z, w, dz / localLength, dw / localLength };
 }
 
+RayPencil PrimaryRays::around(double windowX, double windowY) const
+{
+  const PrimaryRayFunctions& rays = f_;
+  const auto move = [&](const WindowFunction<Vec3d>& f)
+  {
+    return WindowFunction<Vec3d>{ f.at(rays.clipX(windowX), rays.clipY(windowY)),
+      (2.0 / rays.width) * f.dx, (2.0 / rays.height) * f.dy };
+  };
+  return { move(rays.localOrigin), move(rays.localDirection), move(rays.worldDirection) };
+}
+
 Vec3d PrimaryRays::worldDirection(double x, double y) const
 {
   return normalized(f_.worldDirection.at(f_.clipX(x), f_.clipY(y)));

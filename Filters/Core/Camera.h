@@ -91,6 +91,13 @@ struct PrimaryRayFunctions
   [[nodiscard]] double clipY(double y) const { return 2 * y / height - 1; }
 };
 
+/// Eye rays as linear functions of the offset in pixels from one place of the window: the ray at
+/// offset (x, y) is localOrigin + s localDirection, with directions of any length.
+struct RayPencil
+{
+  WindowFunction<Vec3d> localOrigin, localDirection, worldDirection;
+};
+
 /// Makes eye rays through pixel centres, in double precision from the matrices to the ray.
 ///
 /// Pixel (x, y) counts from the lower left corner. A ray is where two planes of eye space meet,
@@ -111,6 +118,9 @@ public:
 
   /// The ray through window position (x, y); pixel i has its centre at i + 1/2.
   [[nodiscard]] PrimaryRay at(double x, double y) const;
+
+  /// The rays around window position (x, y).
+  [[nodiscard]] RayPencil around(double x, double y) const;
 
   /// Unit vector of the same ray in world space.
   [[nodiscard]] Vec3d worldDirection(double x, double y) const;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "EyeDistance.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace po
@@ -34,7 +38,28 @@ double eyeDistance(const WindowToEye& windowToEye, double x, double y, double z)
     eye[row] = m[4 * row] * x + m[4 * row + 1] * y + m[4 * row + 2] * (1.0 - z) + m[4 * row + 3];
   }
   // The eye looks along -z.
-  return windowToEye.perspective ? std::hypot(eye[0], eye[1], eye[2]) / std::abs(eye[3])
-                                 : -eye[2] / eye[3];
+  return windowToEye.perspective
+    ? std::sqrt(eye[0] * eye[0] + eye[1] * eye[1] + eye[2] * eye[2]) / std::abs(eye[3])
+    : -eye[2] / eye[3];
+}
+
+void eyeDistances(const WindowToEye& windowToEye, const std::vector<float>& zBuffer, int width,
+  int height, std::vector<float>& distances)
+{
+  distances.resize(zBuffer.size());
+  tbb::parallel_for(tbb::blocked_range<int>(0, height),
+    [&](const tbb::blocked_range<int>& rows)
+    {
+      for (int j = rows.begin(); j < rows.end(); ++j)
+      {
+        const double y = pixelCenter(j, height);
+        for (int i = 0; i < width; ++i)
+        {
+          const std::size_t pixel = static_cast<std::size_t>(j) * width + i;
+          distances[pixel] =
+            static_cast<float>(eyeDistance(windowToEye, pixelCenter(i, width), y, zBuffer[pixel]));
+        }
+      }
+    });
 }
 }

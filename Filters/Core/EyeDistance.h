@@ -4,6 +4,8 @@
 
 #include "Matrix4.h"
 
+#include <vector>
+
 /// From OpenGL's z-buffer to distance in world units.
 namespace po
 {
@@ -25,6 +27,10 @@ struct WindowToEye
 /// Distance along the normalised eye ray (perspective) or along the view direction (parallel);
 /// +infinity for background (z >= 1) and for NaN.
 [[nodiscard]] double eyeDistance(const WindowToEye& windowToEye, double x, double y, double z);
+
+/// The distances of all pixels of a z-buffer, row by row from the bottom, in parallel.
+void eyeDistances(const WindowToEye& windowToEye, const std::vector<float>& zBuffer, int width,
+  int height, std::vector<float>& distances);
 
 /// Centre of pixel i of `count` pixels, in [-1, 1].
 [[nodiscard]] inline double pixelCenter(int i, int count)

@@ -15,7 +15,7 @@ namespace po
 {
 namespace
 {
-constexpr int TileSize = 16; // pixels; a tile is the unit of parallel work and of skipping
+constexpr int TileSize = DepthTileSize; // a tile is the unit of parallel work and of skipping
 constexpr int PacketSide = PrimaryPacket::Side;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr float NoDepth = 2;
@@ -50,6 +50,10 @@ void prepare(TracedFrame& frame, const PrimaryRays& rays, const FrameSettings& s
   frame.sphere.resize(pixels);
   frame.normal.resize(pixels);
   frame.windowDepth.resize(pixels);
+  DepthRange nothing;
+  nothing.background = true;
+  frame.tiles.assign(
+    static_cast<std::size_t>(depthTiles(frame.width)) * depthTiles(frame.height), nothing);
 }
 
 void clear(TracedFrame& frame, const PixelRange& range)
@@ -104,6 +108,8 @@ public:
         intersect(packet, seen_).empty() ? clear(frame_, packet) : tracePacket(packet, counters);
       }
     }
+    frame_.tiles[static_cast<std::size_t>(tile.y0 / TileSize) * depthTiles(frame_.width) +
+      tile.x0 / TileSize] = rangeOf(tile);
   }
 
   /// What is behind the front that a pixel shows.
@@ -120,6 +126,19 @@ public:
   }
 
 private:
+  [[nodiscard]] DepthRange rangeOf(const PixelRange& tile) const
+  {
+    DepthRange range;
+    for (int y = tile.y0; y < tile.y1; ++y)
+    {
+      for (int x = tile.x0; x < tile.x1; ++x)
+      {
+        range.add(frame_.t[pixelOf(x, y)]);
+      }
+    }
+    return range;
+  }
+
   [[nodiscard]] std::size_t pixelOf(int x, int y) const
   {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) +
@@ -241,8 +260,8 @@ private:
 template <typename Function>
 TraceCounters forEachTile(const TracedFrame& frame, const Tracer& tracer, const Function& f)
 {
-  const int columns = (frame.width + TileSize - 1) / TileSize;
-  const int rows = (frame.height + TileSize - 1) / TileSize;
+  const int columns = depthTiles(frame.width);
+  const int rows = depthTiles(frame.height);
   tbb::enumerable_thread_specific<TraceCounters> counters;
   tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows),
     [&](const tbb::blocked_range<int>& tiles)

@@ -3,6 +3,7 @@
 #define po_FrameTracer_h
 
 #include "Camera.h"
+#include "DepthSource.h"
 #include "SphereScene.h"
 
 #include <cstddef>
@@ -30,6 +31,7 @@ struct TracedFrame
   std::vector<std::uint32_t> sphere; ///< index into the scene's spheres, or SphereScene::None
   std::vector<Vec3f> normal;         ///< local outward unit normal of a hit, otherwise 0
   std::vector<float> windowDepth;    ///< 0 at the near and 1 at the far plane, 2: nothing
+  std::vector<DepthRange> tiles;     ///< range of t in each tile of DepthTileSize pixels
 
   [[nodiscard]] std::size_t pixels() const { return sphere.size(); }
 };

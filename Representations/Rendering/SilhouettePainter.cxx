@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouettePainter.h"
 
-#include "vtkSilhouetteDistanceFS.h"
-#include "vtkSilhouetteFarthestFS.h"
-#include "vtkSilhouetteLineFS.h"
+#include "vtkSilhouetteFS.h"
 
 #include "vtkOpenGLShaderCache.h"
 #include "vtkOpenGLState.h"
@@ -14,9 +12,6 @@ namespace po
 {
 namespace
 {
-/// Side of the block that one pixel of the next level stands for, as in vtkSilhouetteFarthestFS.
-constexpr int ReductionBlock = 8;
-
 int attachmentParameter(GLenum attachment, GLenum parameter)
 {
   GLint value = 0;
@@ -27,16 +22,6 @@ int attachmentParameter(GLenum attachment, GLenum parameter)
 bool isAttached(GLenum attachment)
 {
   return attachmentParameter(attachment, GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE) != GL_NONE;
-}
-
-std::unique_ptr<vtkOpenGLQuadHelper> buildQuad(vtkOpenGLRenderWindow* window, const char* source)
-{
-  return std::make_unique<vtkOpenGLQuadHelper>(window, nullptr, source, nullptr);
-}
-
-bool isCompiled(const std::unique_ptr<vtkOpenGLQuadHelper>& quad)
-{
-  return quad->Program && quad->Program->GetCompiled();
 }
 
 /// A texture that is readable by shaders while this object lives.
@@ -57,19 +42,6 @@ private:
   vtkTextureObject* texture_;
 };
 
-void setMatrix(vtkShaderProgram* program, const char* name, const Matrix4& matrix)
-{
-  std::array<float, 16> columns; // OpenGL has columns first
-  for (int row = 0; row < 4; ++row)
-  {
-    for (int column = 0; column < 4; ++column)
-    {
-      columns[4 * column + row] = static_cast<float>(matrix[4 * row + column]);
-    }
-  }
-  program->SetUniformMatrix4x4(name, columns.data());
-}
-
 /// Everything that drawing changes is as before when this object ends.
 struct SavedState
 {
@@ -80,6 +52,7 @@ struct SavedState
     , blend(state, GL_BLEND)
     , depthTest(state, GL_DEPTH_TEST)
     , depthMask(state)
+    , depthFunction(state)
     , blendFunction(state)
   {
   }
@@ -89,20 +62,28 @@ struct SavedState
   vtkOpenGLState::ScopedglEnableDisable blend;
   vtkOpenGLState::ScopedglEnableDisable depthTest;
   vtkOpenGLState::ScopedglDepthMask depthMask;
+  vtkOpenGLState::ScopedglDepthFunc depthFunction;
   vtkOpenGLState::ScopedglBlendFuncSeparate blendFunction;
 };
 
-void prepareToDraw(vtkOpenGLState* state)
-{
-  state->vtkglDisable(GL_SCISSOR_TEST);
-  state->vtkglDisable(GL_BLEND);
-  state->vtkglDisable(GL_DEPTH_TEST);
-  state->vtkglDepthMask(GL_FALSE);
-}
 }
 
-std::string SilhouettePainter::readDepth(vtkOpenGLRenderWindow* window,
-  const SilhouetteViewport& viewport, const WindowToEye& windowToEye, bool whole)
+std::string SilhouettePainter::readDepth(
+  vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, std::vector<float>& zBuffer)
+{
+  zBuffer.resize(static_cast<std::size_t>(viewport.width) * viewport.height);
+  return read(window, viewport, GL_DEPTH_COMPONENT, GL_FLOAT, zBuffer.data());
+}
+
+std::string SilhouettePainter::readColors(vtkOpenGLRenderWindow* window,
+  const SilhouetteViewport& viewport, std::vector<std::uint8_t>& rgba)
+{
+  rgba.resize(4 * static_cast<std::size_t>(viewport.width) * viewport.height);
+  return read(window, viewport, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+}
+
+std::string SilhouettePainter::read(vtkOpenGLRenderWindow* window,
+  const SilhouetteViewport& viewport, unsigned int glFormat, unsigned int glType, void* target)
 {
   GLint frame = 0;
   glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &frame);
@@ -111,27 +92,21 @@ std::string SilhouettePainter::readDepth(vtkOpenGLRenderWindow* window,
   {
     return "The frame buffer has no depth.";
   }
-
+  use(window);
   vtkOpenGLState* state = window->GetState();
   const SavedState saved(state);
-  prepareToDraw(state);
+  state->vtkglDisable(GL_SCISSOR_TEST);
   state->PushFramebufferBindings();
-  allocate(window, viewport, format);
-  const bool built = buildPrograms();
-  const bool copied = built && copyDepth(frame, viewport);
+  allocate(viewport, format);
+  const bool copied = copy(frame, viewport);
   if (copied)
   {
-    computeDistances(windowToEye);
-    if (whole || !farthestOfWhole_)
-    {
-      findFarthest();
-    }
+    frame_->Bind(GL_READ_FRAMEBUFFER);
+    frame_->ActivateReadBuffer(0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, viewport.width, viewport.height, glFormat, glType, target);
   }
   state->PopFramebufferBindings();
-  if (!built)
-  {
-    return "The silhouette shaders do not compile.";
-  }
   return copied ? "" : "The depth of the frame buffer cannot be copied (format not supported).";
 }
 
@@ -162,67 +137,37 @@ SilhouettePainter::DepthFormat SilhouettePainter::queryDepthFormat(unsigned int 
   return format;
 }
 
-SilhouettePainter::Texture SilhouettePainter::allocateFloat(int width, int height) const
+void SilhouettePainter::use(vtkOpenGLRenderWindow* window)
 {
-  Texture texture = Texture::New();
-  texture->SetContext(window_);
-  texture->SetMinificationFilter(vtkTextureObject::Nearest);
-  texture->SetMagnificationFilter(vtkTextureObject::Nearest);
-  texture->Allocate2D(width, height, 1, VTK_FLOAT);
-  return texture;
-}
-
-void SilhouettePainter::allocate(
-  vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, const DepthFormat& format)
-{
-  const unsigned int width = viewport.width;
-  const unsigned int height = viewport.height;
-  if (window_ == window && depth_ && depth_->GetWidth() == width && depth_->GetHeight() == height &&
-    format_ == format)
-  {
-    return;
-  }
   if (window_ != window)
   {
     releaseGraphicsResources();
   }
   window_ = window;
-  format_ = format;
-
-  depth_ = Texture::New();
-  depth_->SetContext(window);
-  depth_->SetMinificationFilter(vtkTextureObject::Nearest);
-  depth_->SetMagnificationFilter(vtkTextureObject::Nearest);
-  format.stencil ? depth_->AllocateDepthStencil(width, height)
-                 : depth_->AllocateDepth(width, height, format.type);
-
-  distances_ = allocateFloat(width, height);
-  farthest_.clear();
-  int columns = viewport.width;
-  int rows = viewport.height;
-  do
-  {
-    columns = (columns + ReductionBlock - 1) / ReductionBlock;
-    rows = (rows + ReductionBlock - 1) / ReductionBlock;
-    farthest_.push_back(allocateFloat(columns, rows));
-  } while (columns > 1 || rows > 1);
-
-  frame_ = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
-  frame_->SetContext(window);
 }
 
-bool SilhouettePainter::buildPrograms()
+void SilhouettePainter::allocate(const SilhouetteViewport& viewport, const DepthFormat& format)
 {
-  if (!distanceQuad_)
+  const unsigned int width = viewport.width;
+  const unsigned int height = viewport.height;
+  if (copiedDepth_ && copiedDepth_->GetWidth() == width && copiedDepth_->GetHeight() == height &&
+    format_ == format)
   {
-    distanceQuad_ = buildQuad(window_, vtkSilhouetteDistanceFS);
-    farthestQuad_ = buildQuad(window_, vtkSilhouetteFarthestFS);
-    lineQuad_ = buildQuad(window_, vtkSilhouetteLineFS);
+    return;
   }
-  return isCompiled(distanceQuad_) && isCompiled(farthestQuad_) && isCompiled(lineQuad_);
+  format_ = format;
+  copiedDepth_ = Texture::New();
+  copiedDepth_->SetContext(window_);
+  format.stencil ? copiedDepth_->AllocateDepthStencil(width, height)
+                 : copiedDepth_->AllocateDepth(width, height, format.type);
+  copiedColor_ = Texture::New();
+  copiedColor_->SetContext(window_);
+  copiedColor_->Allocate2D(width, height, 4, VTK_UNSIGNED_CHAR);
+  frame_ = vtkSmartPointer<vtkOpenGLFramebufferObject>::New();
+  frame_->SetContext(window_);
 }
 
-bool SilhouettePainter::copyDepth(unsigned int frame, const SilhouetteViewport& viewport)
+bool SilhouettePainter::copy(unsigned int frame, const SilhouetteViewport& viewport)
 {
   while (glGetError() != GL_NO_ERROR)
   {
@@ -230,74 +175,74 @@ bool SilhouettePainter::copyDepth(unsigned int frame, const SilhouetteViewport& 
   }
   vtkOpenGLState* state = window_->GetState();
   frame_->Bind();
-  frame_->AddColorAttachment(0, distances_);
-  frame_->AddDepthAttachment(depth_);
+  frame_->AddColorAttachment(0, copiedColor_);
+  frame_->AddDepthAttachment(copiedDepth_);
   frame_->ActivateBuffer(0);
-  // A blit, because it also resolves a multisampled buffer (to one of its samples).
+  // A blit, because it also resolves a multisampled buffer (depth to one of its samples).
   state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, frame);
   state->vtkglBlitFramebuffer(viewport.x, viewport.y, viewport.x + viewport.width,
-    viewport.y + viewport.height, 0, 0, viewport.width, viewport.height, GL_DEPTH_BUFFER_BIT,
-    GL_NEAREST);
-  // A texture that is attached must not be read.
-  frame_->RemoveDepthAttachment();
+    viewport.y + viewport.height, 0, 0, viewport.width, viewport.height,
+    GL_DEPTH_BUFFER_BIT | GL_COLOR_BUFFER_BIT, GL_NEAREST);
   return glGetError() == GL_NO_ERROR;
 }
 
-void SilhouettePainter::drawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad)
+std::string SilhouettePainter::upload(const SilhouettePixels& pixels, int width, int height)
 {
-  frame_->Bind();
-  frame_->AddColorAttachment(0, target);
-  frame_->ActivateBuffer(0);
-  window_->GetState()->vtkglViewport(0, 0, target->GetWidth(), target->GetHeight());
-  quad.Render();
-}
-
-void SilhouettePainter::computeDistances(const WindowToEye& windowToEye)
-{
-  vtkShaderProgram* program = distanceQuad_->Program;
-  window_->GetShaderCache()->ReadyShaderProgram(program);
-  const ActiveTexture depth(program, "zBuffer", depth_);
-  program->SetUniformi("perspective", windowToEye.perspective ? 1 : 0);
-  setMatrix(program, "windowToEye", windowToEye.matrix);
-  drawInto(distances_, *distanceQuad_);
-}
-
-void SilhouettePainter::findFarthest()
-{
-  vtkShaderProgram* program = farthestQuad_->Program;
-  window_->GetShaderCache()->ReadyShaderProgram(program);
-  vtkTextureObject* source = distances_;
-  for (const Texture& level : farthest_)
+  for (Texture* texture : { &colors_, &depths_ })
   {
-    const ActiveTexture distances(program, "distances", source);
-    drawInto(level, *farthestQuad_);
-    source = level;
+    if (!*texture)
+    {
+      *texture = Texture::New();
+      (*texture)->SetContext(window_);
+      (*texture)->SetMinificationFilter(vtkTextureObject::Nearest);
+      (*texture)->SetMagnificationFilter(vtkTextureObject::Nearest);
+    }
   }
-  farthestOfWhole_ = source;
+  // VTK's interface takes a mutable pointer, but only reads.
+  auto* rgba = const_cast<std::uint8_t*>(pixels.rgba.data());
+  auto* depth = const_cast<float*>(pixels.depth.data());
+  const bool done = colors_->Create2DFromRaw(width, height, 4, VTK_UNSIGNED_CHAR, rgba) &&
+    depths_->Create2DFromRaw(width, height, 1, VTK_FLOAT, depth);
+  if (!done)
+  {
+    return "OpenGL could not make a texture of " + std::to_string(width) + " x " +
+      std::to_string(height) + " pixels.";
+  }
+  if (!quad_)
+  {
+    quad_ = std::make_unique<vtkOpenGLQuadHelper>(window_, nullptr, vtkSilhouetteFS, nullptr);
+  }
+  return quad_->Program && quad_->Program->GetCompiled()
+    ? ""
+    : "OpenGL could not compile the program that draws silhouettes.";
 }
 
-void SilhouettePainter::drawLines(
-  const SilhouetteViewport& viewport, int margin, const SilhouetteStyle& style)
+std::string SilhouettePainter::draw(vtkOpenGLRenderWindow* window,
+  const SilhouetteViewport& viewport, int margin, const SilhouettePixels& pixels)
 {
-  vtkOpenGLState* state = window_->GetState();
+  use(window);
+  const int width = viewport.width + 2 * margin, height = viewport.height + 2 * margin;
+  if (std::string error = upload(pixels, width, height); !error.empty())
+  {
+    return error;
+  }
+  vtkOpenGLState* state = window->GetState();
   const SavedState saved(state);
-  prepareToDraw(state);
-  state->vtkglViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  state->vtkglViewport(viewport.x - margin, viewport.y - margin, width, height);
+  state->vtkglEnable(GL_SCISSOR_TEST);
+  state->vtkglScissor(viewport.x, viewport.y, viewport.width, viewport.height);
+  state->vtkglEnable(GL_DEPTH_TEST);
+  state->vtkglDepthFunc(GL_LEQUAL);
+  state->vtkglDepthMask(GL_FALSE);
   state->vtkglEnable(GL_BLEND);
   state->vtkglBlendFuncSeparate(
     GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 
-  vtkShaderProgram* program = lineQuad_->Program;
-  window_->GetShaderCache()->ReadyShaderProgram(program);
-  const ActiveTexture distances(program, "distances", distances_);
-  const ActiveTexture farthest(program, "farthestDistance", farthestOfWhole_);
-  program->SetUniformi("margin", margin);
-  program->SetUniformf("threshold", static_cast<float>(style.edges.threshold));
-  program->SetUniformf("backgroundDepth", static_cast<float>(style.edges.backgroundDepth));
-  program->SetUniformf("automaticShare", static_cast<float>(AutomaticThresholdShare));
-  program->SetUniformf("backgroundMargin", static_cast<float>(BackgroundMargin));
-  program->SetUniform4f("lineColor", style.color.data());
-  lineQuad_->Render();
+  window->GetShaderCache()->ReadyShaderProgram(quad_->Program);
+  const ActiveTexture colors(quad_->Program, "colors", colors_);
+  const ActiveTexture depths(quad_->Program, "depths", depths_);
+  quad_->Render();
+  return "";
 }
 
 void SilhouettePainter::releaseGraphicsResources()

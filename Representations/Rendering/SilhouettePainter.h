@@ -2,10 +2,8 @@
 #ifndef po_SilhouettePainter_h
 #define po_SilhouettePainter_h
 
-#include "DepthLaplacian.h"
-#include "EyeDistance.h"
+#include "SilhouettePixels.h"
 
-#include "vtkNew.h"
 #include "vtkOpenGLFramebufferObject.h"
 #include "vtkOpenGLQuadHelper.h"
 #include "vtkOpenGLRenderWindow.h"
@@ -13,7 +11,6 @@
 #include "vtkTextureObject.h"
 #include "vtkWeakPointer.h"
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,28 +26,25 @@ struct SilhouetteViewport
   int height;
 };
 
-struct SilhouetteStyle
-{
-  SilhouetteParameters edges;
-  /// RGB and opacity, in [0, 1].
-  std::array<float, 4> color;
-};
-
-/// Reads the depth of a frame buffer and draws silhouettes over the same or another one. Keeps
-/// textures of the viewport's size and the shader programs between calls.
+/// Reads the depth and the colours of a frame buffer and draws lines over the same or another one.
+/// Keeps textures of the viewport's size and the shader program between calls.
 class SilhouettePainter
 {
 public:
-  /// Reads the depth of the frame buffer that is bound for drawing. `whole` says that the viewport
-  /// shows the whole picture; automatic values of a tile are those of the last whole picture (of
-  /// the tile itself if there was none), so that tiles fit together. Returns what went wrong;
-  /// empty if nothing did.
-  std::string readDepth(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
-    const WindowToEye& windowToEye, bool whole);
+  /// Reads the z-buffer of the frame buffer that is bound for drawing, rows from the bottom.
+  /// Returns what went wrong; empty if nothing did.
+  std::string readDepth(
+    vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, std::vector<float>& zBuffer);
 
-  /// Draws over the frame buffer that is bound for drawing. The depth that was read reaches
-  /// `margin` pixels beyond the viewport on each side.
-  void drawLines(const SilhouetteViewport& viewport, int margin, const SilhouetteStyle& style);
+  /// Reads RGBA bytes of the same frame buffer.
+  std::string readColors(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
+    std::vector<std::uint8_t>& rgba);
+
+  /// Blends lines over the frame buffer that is bound for drawing, except where what is there is
+  /// nearer. The lines reach `margin` pixels beyond the viewport on each side; depth is not
+  /// written.
+  std::string draw(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, int margin,
+    const SilhouettePixels& pixels);
 
   void releaseGraphicsResources();
 
@@ -67,28 +61,19 @@ private:
   };
 
   static DepthFormat queryDepthFormat(unsigned int frame);
-  void allocate(
-    vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, const DepthFormat& format);
-  Texture allocateFloat(int width, int height) const;
-  bool buildPrograms();
-
-  bool copyDepth(unsigned int frame, const SilhouetteViewport& viewport);
-  void computeDistances(const WindowToEye& windowToEye);
-  void findFarthest();
-  void drawInto(vtkTextureObject* target, vtkOpenGLQuadHelper& quad);
+  void use(vtkOpenGLRenderWindow* window);
+  void allocate(const SilhouetteViewport& viewport, const DepthFormat& format);
+  bool copy(unsigned int frame, const SilhouetteViewport& viewport);
+  std::string read(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport,
+    unsigned int glFormat, unsigned int glType, void* target);
+  std::string upload(const SilhouettePixels& pixels, int width, int height);
 
   vtkWeakPointer<vtkOpenGLRenderWindow> window_;
   DepthFormat format_{};
   vtkSmartPointer<vtkOpenGLFramebufferObject> frame_;
-  Texture depth_;
-  Texture distances_;
-  /// Each level holds the farthest distance of 8 x 8 pixels of the one before; the last is 1 x 1.
-  std::vector<Texture> farthest_;
-  /// The last level as found for the last whole picture.
-  Texture farthestOfWhole_;
-  std::unique_ptr<vtkOpenGLQuadHelper> distanceQuad_;
-  std::unique_ptr<vtkOpenGLQuadHelper> farthestQuad_;
-  std::unique_ptr<vtkOpenGLQuadHelper> lineQuad_;
+  Texture copiedDepth_, copiedColor_;
+  Texture colors_, depths_;
+  std::unique_ptr<vtkOpenGLQuadHelper> quad_;
 };
 }
 

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthSilhouettePass.h"
 
+#include "ImageDepth.h"
 #include "Projection.h"
+#include "ShrunkCamera.h"
 #include "SilhouettePainter.h"
+#include "SilhouetteParametersOf.h"
+#include "SilhouetteRims.h"
+#include "TracedLayers.h"
+#include "vtkRayTracedSphereMapper.h"
 
+#include "vtkActor.h"
+#include "vtkActor2D.h"
 #include "vtkCamera.h"
-#include "vtkHomogeneousTransform.h"
-#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
@@ -15,9 +21,10 @@
 #include "vtkRenderState.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
-#include "vtkTransform.h"
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 vtkStandardNewMacro(vtkDepthSilhouettePass);
 
@@ -58,20 +65,154 @@ bool canBeSeen(const vtkRenderState* state)
   return viewport.width > 0 && viewport.height > 0 && windowToEyeOf(state->GetRenderer());
 }
 
-/// The window shows one tile of a larger picture.
 bool isTile(const vtkRenderState* state)
 {
-  const int* scale = windowOf(state)->GetTileScale();
-  return scale[0] > 1 || scale[1] > 1;
+  return po::isTile(state->GetRenderer());
 }
 
-/// Pixels around a tile that the Laplacian of the tile's pixels needs.
-constexpr int TileMargin = 1;
+/// Side of the largest frame that is drawn for samples within pixels; every OpenGL 3.2 draws it.
+constexpr int LargestFrame = 8192;
+
+/// Does a prop write depth?
+bool isDeep(vtkProp* prop)
+{
+  return prop->GetVisibility() && !vtkActor2D::SafeDownCast(prop) && prop->HasOpaqueGeometry();
+}
+
+/// Are ray-traced spheres all that writes depth?
+bool hasOnlySpheres(const std::vector<vtkProp*>& props)
+{
+  const auto isSpheres = [](vtkProp* prop)
+  {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    return actor && vtkRayTracedSphereMapper::SafeDownCast(actor->GetMapper());
+  };
+  return std::all_of(
+    props.begin(), props.end(), [&](vtkProp* prop) { return !isDeep(prop) || isSpheres(prop); });
+}
+
+/// The largest number of samples up to `wanted` with which a frame can be drawn.
+int samplesThatFit(int wanted, int width, int height)
+{
+  int samples = wanted;
+  while (samples > 1 && samples * std::max(width, height) > LargestFrame)
+  {
+    samples /= 2;
+  }
+  return samples;
+}
+
+/// A picture with its border repeated `margin` pixels beyond it.
+std::vector<std::uint8_t> pad(
+  const std::vector<std::uint8_t>& rgba, int width, int height, int margin)
+{
+  std::vector<std::uint8_t> padded;
+  for (int j = -margin; j < height + margin; ++j)
+  {
+    for (int i = -margin; i < width + margin; ++i)
+    {
+      const auto pixel = rgba.begin() +
+        4 *
+          (static_cast<std::ptrdiff_t>(std::clamp(j, 0, height - 1)) * width +
+            std::clamp(i, 0, width - 1));
+      padded.insert(padded.end(), pixel, pixel + 4);
+    }
+  }
+  return padded;
+}
+
+/// The nearest window depth of the samples of each pixel.
+void findNearest(const std::vector<float>& zBuffer, int width, int height, int samples,
+  std::vector<float>& nearest)
+{
+  nearest.assign(static_cast<std::size_t>(width) * height, 1);
+  for (int j = 0; j < height * samples; ++j)
+  {
+    for (int i = 0; i < width * samples; ++i)
+    {
+      float& z = nearest[static_cast<std::size_t>(j / samples) * width + i / samples];
+      z = std::min(z, zBuffer[static_cast<std::size_t>(j) * width * samples + i]);
+    }
+  }
+}
+
+/// All ray-traced spheres in the frame buffer.
+std::vector<po::TracedActor> spheresOf(const vtkRenderState* state, int width, int height)
+{
+  std::vector<po::TracedActor> actors;
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    const po::TracedActor actor = po::tracedActorOf(state->GetPropArray()[i], width, height);
+    if (actor.renderer && actor.actor->GetVisibility())
+    {
+      actors.push_back(actor);
+    }
+  }
+  return actors;
+}
+
+/// The traced frames that make up all depth of the frame buffer; empty if anything else does.
+std::vector<po::TracedActor> tracedActorsOf(const vtkRenderState* state, int width, int height)
+{
+  const auto actors = spheresOf(state, width, height);
+  const auto deep = std::count_if(
+    state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount(), isDeep);
+  return deep == static_cast<std::ptrdiff_t>(actors.size()) ? actors
+                                                            : std::vector<po::TracedActor>{};
+}
+
+/// Forces translucent actors to be drawn as opaque ones while this object lives.
+class Opaque
+{
+public:
+  explicit Opaque(const std::vector<vtkSmartPointer<vtkActor>>& actors)
+  {
+    for (const auto& actor : actors)
+    {
+      if (!actor->GetForceOpaque())
+      {
+        actor->ForceOpaqueOn();
+        forced_.push_back(actor);
+      }
+    }
+  }
+  ~Opaque()
+  {
+    for (const auto& actor : forced_)
+    {
+      actor->ForceOpaqueOff();
+    }
+  }
+  Opaque(const Opaque&) = delete;
+  void operator=(const Opaque&) = delete;
+
+private:
+  std::vector<vtkSmartPointer<vtkActor>> forced_;
+};
 }
 
 struct vtkDepthSilhouettePass::Internals
 {
   po::SilhouettePainter Painter;
+  std::vector<vtkSmartPointer<vtkActor>> Actors; ///< that have lines; none: all
+  po::SilhouetteScale Scale;                     ///< of the last whole picture
+  bool HasScale = false;
+  std::vector<float> ZBuffer, Distances, FrontDepth;
+  std::vector<std::uint8_t> Colors;
+  po::SilhouetteImage Lines;
+  po::SilhouettePixels Pixels;
+  int Margin = 0; ///< pixels of Lines around the viewport
+
+  /// The scale of a whole picture, or, for a tile, that of the last whole picture.
+  const po::SilhouetteScale& scale(const po::SilhouetteScale& ofThis, bool whole)
+  {
+    if (whole || !this->HasScale)
+    {
+      this->Scale = ofThis;
+      this->HasScale = whole;
+    }
+    return this->Scale;
+  }
 };
 
 vtkDepthSilhouettePass::vtkDepthSilhouettePass()
@@ -81,9 +222,24 @@ vtkDepthSilhouettePass::vtkDepthSilhouettePass()
 
 vtkDepthSilhouettePass::~vtkDepthSilhouettePass() = default;
 
+void vtkDepthSilhouettePass::AddActor(vtkActor* actor)
+{
+  if (actor)
+  {
+    this->Internal->Actors.emplace_back(actor);
+    this->Modified();
+  }
+}
+
+void vtkDepthSilhouettePass::RemoveAllActors()
+{
+  this->Internal->Actors.clear();
+  this->Modified();
+}
+
 bool vtkDepthSilhouettePass::CheckParameters()
 {
-  const std::string fault = po::faultOf({ this->Threshold, this->BackgroundDepth });
+  const std::string fault = po::faultOf(po::silhouetteParametersOf(*this));
   if (!fault.empty())
   {
     vtkErrorMacro(<< fault);
@@ -103,76 +259,151 @@ void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
   const bool selecting = state->GetRenderer()->GetSelector() != nullptr;
   const bool lines =
     this->LineVisibility && !selecting && this->CheckParameters() && canBeSeen(state);
-  const bool tile = lines && isTile(state);
-  const bool margins = tile && this->TileMargins;
+  const bool around =
+    lines && this->TileMargins && (isTile(state) || !this->Internal->Actors.empty());
 
-  std::string error = margins ? this->ReadDepthAroundTile(state) : std::string();
+  std::string error = around ? this->FindAround(state) : std::string();
   this->DelegatePass->Render(state);
   this->NumberOfRenderedProps += this->DelegatePass->GetNumberOfRenderedProps();
-  if (lines && !margins)
+  if (lines && !around)
   {
-    error = this->ReadDepth(state, !tile);
+    error = this->Prepare(state);
+  }
+  if (lines && error.empty())
+  {
+    error = this->DrawLines(state);
   }
   if (!error.empty())
   {
-    vtkErrorMacro(<< error << " No silhouettes are drawn.");
+    vtkErrorMacro("Silhouettes cannot be drawn: " << error);
   }
-  else if (lines)
+}
+
+std::string vtkDepthSilhouettePass::Prepare(const vtkRenderState* state)
+{
+  const po::SilhouetteViewport viewport = viewportOf(state);
+  // With several processes the frame buffer has what others have drawn too.
+  if (this->TileMargins && !tracedActorsOf(state, viewport.width, viewport.height).empty())
   {
-    this->DrawLines(state, margins ? TileMargin : 0);
+    return this->FindInTracedFrames(state, 0);
   }
+  const int samples = samplesThatFit(this->Samples, viewport.width, viewport.height);
+  return samples > 1 && this->TileMargins ? this->FindAround(state)
+                                          : this->FindInZBuffer(state, 1, 0);
 }
 
-std::string vtkDepthSilhouettePass::ReadDepth(const vtkRenderState* state, bool whole)
+std::string vtkDepthSilhouettePass::FindInTracedFrames(const vtkRenderState* state, int margin)
 {
-  return this->Internal->Painter.readDepth(
-    windowOf(state), viewportOf(state), *windowToEyeOf(state->GetRenderer()), whole);
+  Internals& self = *this->Internal;
+  const po::SilhouetteViewport viewport = viewportOf(state);
+  const auto actors = tracedActorsOf(state, viewport.width, viewport.height);
+  const po::SilhouetteScale& scale = self.scale(po::scaleOf(actors), !isTile(state));
+  const po::SilhouetteRule rule = po::resolve(po::silhouetteParametersOf(*this), scale);
+  const bool placed = !self.Actors.empty();
+  po::findTracedSilhouettes(
+    po::depthOf(actors), rule, self.Lines, { this->Darken || placed, true });
+  self.Margin = margin;
+  self.FrontDepth.clear();
+  if (placed)
+  {
+    po::mergeWindowDepth(actors, self.FrontDepth);
+  }
+  return "";
 }
 
-std::string vtkDepthSilhouettePass::ReadDepthAroundTile(const vtkRenderState* state)
+std::string vtkDepthSilhouettePass::FindInZBuffer(
+  const vtkRenderState* state, int samples, int margin)
 {
+  Internals& self = *this->Internal;
+  const po::SilhouetteViewport viewport = viewportOf(state);
+  std::string error = self.Painter.readDepth(windowOf(state), viewport, self.ZBuffer);
+  if (!error.empty())
+  {
+    return error;
+  }
+  po::eyeDistances(*windowToEyeOf(state->GetRenderer()), self.ZBuffer, viewport.width,
+    viewport.height, self.Distances);
+  const po::ImageDepth<float> depth(
+    po::DepthImage<float>{ self.Distances.data(), viewport.width, viewport.height }, samples);
+  po::SilhouetteParameters parameters = po::silhouetteParametersOf(*this);
+  parameters.samples = samples;
+  const auto spheres = spheresOf(state, viewport.width, viewport.height);
+  if (this->ThresholdUnit != 0 && spheres.empty())
+  {
+    return "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
+  }
+  const po::SilhouetteScale& scale = self.scale(
+    spheres.empty() ? po::SilhouetteScale{ 0, po::depthSpread(depth) } : po::scaleOf(spheres),
+    !isTile(state));
+  const bool placed = !self.Actors.empty();
+  po::findSilhouettes(
+    depth, po::resolve(parameters, scale), self.Lines, { this->Darken || placed, true });
+  self.Margin = margin;
+  self.FrontDepth.clear();
+  if (placed)
+  {
+    findNearest(self.ZBuffer, depth.width(), depth.height(), samples, self.FrontDepth);
+  }
+  return "";
+}
+
+std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
+{
+  Internals& self = *this->Internal;
   vtkRenderer* renderer = state->GetRenderer();
   vtkOpenGLRenderWindow* window = windowOf(state);
   const po::SilhouetteViewport tile = viewportOf(state);
-  const po::SilhouetteViewport around{ 0, 0, tile.width + 2 * TileMargin,
-    tile.height + 2 * TileMargin };
+  const int margin = isTile(state) ? po::tileMarginOf(po::silhouetteParametersOf(*this)) : 0;
+  const int width = tile.width + 2 * margin, height = tile.height + 2 * margin;
+  std::vector<vtkProp*> props(
+    state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
+  if (!self.Actors.empty())
+  {
+    props.assign(self.Actors.begin(), self.Actors.end());
+  }
+  const Opaque opaque(self.Actors);
+  const po::ShrunkCamera shrunk(renderer->GetActiveCamera(),
+    static_cast<double>(tile.width) / width, static_cast<double>(tile.height) / height);
+  const bool spheres = hasOnlySpheres(props);
+  const int samples = spheres ? 1 : samplesThatFit(this->Samples, width, height);
 
   window->GetState()->PushFramebufferBindings();
   vtkNew<vtkOpenGLFramebufferObject> frame;
   frame->SetContext(window);
   frame->PopulateFramebuffer(
-    around.width, around.height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
-
-  // The tile's picture shrinks to the middle of the frame, so that its pixels stay what they are.
-  vtkCamera* camera = renderer->GetActiveCamera();
-  vtkSmartPointer<vtkHomogeneousTransform> own = camera->GetUserTransform();
-  vtkNew<vtkTransform> shrink;
-  shrink->Scale(static_cast<double>(tile.width) / around.width,
-    static_cast<double>(tile.height) / around.height, 1.0);
-  if (own)
-  {
-    shrink->Concatenate(own->GetMatrix());
-  }
-  camera->SetUserTransform(shrink);
-
+    samples * width, samples * height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
   vtkRenderState inside(renderer);
-  inside.SetPropArrayAndCount(state->GetPropArray(), state->GetPropArrayCount());
+  inside.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
   inside.SetFrameBuffer(frame);
   this->DelegatePass->Render(&inside);
-  const std::string error =
-    this->Internal->Painter.readDepth(window, around, *windowToEyeOf(renderer), false);
-
-  camera->SetUserTransform(own);
+  const bool traced = spheres && !tracedActorsOf(&inside, width, height).empty();
+  std::string error = traced ? this->FindInTracedFrames(&inside, margin)
+                             : this->FindInZBuffer(&inside, samples, margin);
   window->GetState()->PopFramebufferBindings();
   return error;
 }
 
-void vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state, int margin)
+std::string vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state)
 {
-  const po::SilhouetteStyle style{ { this->Threshold, this->BackgroundDepth },
-    { static_cast<float>(this->Color[0]), static_cast<float>(this->Color[1]),
-      static_cast<float>(this->Color[2]), static_cast<float>(this->Opacity) } };
-  this->Internal->Painter.drawLines(viewportOf(state), margin, style);
+  Internals& self = *this->Internal;
+  const po::SilhouetteViewport viewport = viewportOf(state);
+  po::SilhouetteSurroundings surroundings;
+  if (this->Darken)
+  {
+    std::string error = self.Painter.readColors(windowOf(state), viewport, self.Colors);
+    if (!error.empty())
+    {
+      return error;
+    }
+    if (self.Margin > 0)
+    {
+      self.Colors = pad(self.Colors, viewport.width, viewport.height, self.Margin);
+    }
+    surroundings.rgba = self.Colors.data();
+  }
+  surroundings.windowDepth = self.FrontDepth.empty() ? nullptr : self.FrontDepth.data();
+  po::colorSilhouettes(self.Lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
+  return self.Painter.draw(windowOf(state), viewport, self.Margin, self.Pixels);
 }
 
 void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)
@@ -184,11 +415,11 @@ void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)
 void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Threshold: " << this->Threshold << "\n";
-  os << indent << "BackgroundDepth: " << this->BackgroundDepth << "\n";
+  po::print(os, indent, po::silhouetteParametersOf(*this));
   os << indent << "LineVisibility: " << this->LineVisibility << "\n";
   os << indent << "TileMargins: " << this->TileMargins << "\n";
   os << indent << "Color: " << this->Color[0] << ", " << this->Color[1] << ", " << this->Color[2]
      << "\n";
   os << indent << "Opacity: " << this->Opacity << "\n";
+  os << indent << "Darken: " << this->Darken << "\n";
 }

@@ -4,13 +4,19 @@
  * @brief Render pass that draws silhouettes where the depth jumps.
  *
  * The delegate pass (a vtkCameraPass around what draws the props, or any pass that leaves depth)
- * draws into the frame buffer as if this pass were not there. Then the depth is copied, turned into
- * distance t (world units, along the eye ray in perspective, along the view direction in parallel
- * projection), and the line colour is drawn over the pixels where the Laplacian
- * 8 t(centre) - sum of t(8 neighbours) exceeds Threshold: the convention of vtkDepthSilhouettes,
- * which has the same parameters and defaults and gives the same lines. Colour elsewhere, depth,
- * and the samples of a multisampled frame buffer stay as the delegate left them, so that the pass
- * can be followed by others. Translucent props write no depth and get no lines.
+ * draws into the frame buffer as if this pass were not there. Then lines are found on the processor
+ * by what vtkDepthSilhouettes uses, with the same parameters (vtkSilhouetteParametersMacro), and
+ * blended over the picture. Colour elsewhere, depth, and the samples of a multisampled frame buffer
+ * stay as the delegate left them, so that the pass can be followed by others.
+ *
+ * Where all that is opaque are spheres of vtkRayTracedSphereMapper, their traced frames are the
+ * depth: nothing is read back or drawn again, and lines are antialiased along the spheres' rims.
+ * Otherwise the z-buffer is read; with Samples above 1 the delegate draws a second time, into a
+ * frame buffer that many times as large. Translucent props write no depth and get no lines, unless
+ * they are among the actors of the pass.
+ *
+ * With AddActor() lines are limited to some actors: these alone are drawn into a depth buffer of
+ * their own, translucent ones too, and lines are hidden where something else lies in front.
  *
  * In plain VTK, which otherwise draws a renderer without a pass:
  * @code
@@ -23,20 +29,28 @@
  * Each renderer needs a pass of its own: the pass keeps textures of the renderer's size.
  *
  * Where a picture is put together from tiles (large screenshots), the delegate is drawn a second
- * time for each tile, to know the depth one pixel beyond it, and automatic values are those of the
- * last frame that was not a tile: lines continue across tiles.
+ * time for each tile, to know the depth some pixels beyond it, and automatic values are those of
+ * the last frame that was not a tile: lines continue across tiles.
  *
- * Errors (the delegate is drawn, lines are not): a negative or non-finite Threshold or
- * BackgroundDepth, a frame buffer without depth, a shader that does not compile.
+ * An automatic threshold is three times the jump of two mean particle radii, or of 1/50 of the
+ * diagonal of the particles' bounds where that is more; without particles 1/50 of the spread of the
+ * visible depths.
+ *
+ * Errors (the delegate is drawn, lines are not): a parameter out of its range, ThresholdUnit 1
+ * without ray-traced spheres, a frame buffer without depth, a shader that does not compile.
  */
 #ifndef vtkDepthSilhouettePass_h
 #define vtkDepthSilhouettePass_h
 
 #include "ParticleOcclusionRenderingModule.h"
 #include "vtkImageProcessingPass.h"
+#include "vtkSilhouetteParametersMacro.h"
+#include "vtkSilhouetteStyleMacro.h"
 
 #include <memory>
 #include <string>
+
+class vtkActor;
 
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkDepthSilhouettePass : public vtkImageProcessingPass
 {
@@ -45,56 +59,25 @@ public:
   vtkTypeMacro(vtkDepthSilhouettePass, vtkImageProcessingPass);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  vtkSilhouetteParametersMacro(4);
+  vtkSilhouetteStyleMacro();
+
+public:
   ///@{
   /**
-   * Laplacian above which a pixel is an edge, in world units, >= 0. A straight jump of depth J has
-   * the value 3 J. 0 (the default) is automatic: 1/100 of the farthest visible depth.
+   * Limit lines to these actors. Without any (the default) all opaque surfaces have lines.
    */
-  vtkSetMacro(Threshold, double);
-  vtkGetMacro(Threshold, double);
+  void AddActor(vtkActor* actor);
+  void RemoveAllActors();
   ///@}
 
   ///@{
   /**
-   * Depth of the background, in world units, >= 0. 0 (the default) is automatic: behind the
-   * farthest visible geometry by twice the threshold (the automatic one if that is larger), so that
-   * the outline against the background is always drawn.
-   */
-  vtkSetMacro(BackgroundDepth, double);
-  vtkGetMacro(BackgroundDepth, double);
-  ///@}
-
-  ///@{
-  /**
-   * Draw the lines. Off: the delegate alone is drawn and nothing else is computed. Default: on.
-   */
-  vtkSetMacro(LineVisibility, bool);
-  vtkGetMacro(LineVisibility, bool);
-  vtkBooleanMacro(LineVisibility, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Colour of the lines, RGB in [0, 1]. Default: black.
-   */
-  vtkSetVector3Macro(Color, double);
-  vtkGetVector3Macro(Color, double);
-  ///@}
-
-  ///@{
-  /**
-   * Opacity of the lines, in [0, 1]. Default: 1.
-   */
-  vtkSetClampMacro(Opacity, double, 0.0, 1.0);
-  vtkGetMacro(Opacity, double);
-  ///@}
-
-  ///@{
-  /**
-   * Draw the delegate a second time for each tile of a larger picture, to know the depth one pixel
-   * beyond it. Off: the border of the tile is repeated instead, and a line that falls on a seam can
-   * be missing. Needed where the delegate cannot draw a frame larger than the renderer, as with
-   * sort-last compositing. Default: on.
+   * Draw the delegate a second time for each tile of a larger picture, to know the depth some
+   * pixels beyond it, and for samples within pixels. Off: the border of the tile is repeated
+   * instead, a line that falls on a seam can be missing, the depth is that of the frame buffer, and
+   * there is one sample a pixel. Needed where the delegate cannot draw a frame larger than the
+   * renderer, as with sort-last compositing. Default: on.
    */
   vtkSetMacro(TileMargins, bool);
   vtkGetMacro(TileMargins, bool);
@@ -108,21 +91,18 @@ protected:
   vtkDepthSilhouettePass();
   ~vtkDepthSilhouettePass() override;
 
-  double Threshold = 0.0;
-  double BackgroundDepth = 0.0;
-  bool LineVisibility = true;
   bool TileMargins = true;
-  double Color[3] = { 0.0, 0.0, 0.0 };
-  double Opacity = 1.0;
 
 private:
   vtkDepthSilhouettePass(const vtkDepthSilhouettePass&) = delete;
   void operator=(const vtkDepthSilhouettePass&) = delete;
 
   bool CheckParameters();
-  std::string ReadDepth(const vtkRenderState* state, bool whole);
-  std::string ReadDepthAroundTile(const vtkRenderState* state);
-  void DrawLines(const vtkRenderState* state, int margin);
+  std::string Prepare(const vtkRenderState* state);
+  std::string FindInTracedFrames(const vtkRenderState* state, int margin);
+  std::string FindInZBuffer(const vtkRenderState* state, int samples, int margin);
+  std::string FindAround(const vtkRenderState* state);
+  std::string DrawLines(const vtkRenderState* state);
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

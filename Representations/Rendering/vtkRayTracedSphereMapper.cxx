@@ -511,6 +511,11 @@ vtkIdType vtkRayTracedSphereMapper::GetNumberOfScenes()
   return static_cast<vtkIdType>(sharedScenes()->size());
 }
 
+const po::SphereRenderer& vtkRayTracedSphereMapper::GetSphereRenderer() const
+{
+  return this->Internal->Renderer;
+}
+
 void vtkRayTracedSphereMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Internal->Drawer.releaseGraphicsResources(window);

@@ -34,6 +34,11 @@
 
 class vtkImageData;
 
+namespace po
+{
+class SphereRenderer;
+}
+
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkRayTracedSphereMapper : public vtkPolyDataMapper
 {
 public:
@@ -172,6 +177,11 @@ public:
   double GetShadowSeconds();
   double GetShadeSeconds();
   ///@}
+
+#ifndef __VTK_WRAP__
+  /// The last frame, for what draws over it. Not for other use.
+  const po::SphereRenderer& GetSphereRenderer() const;
+#endif
 
   void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;

@@ -11,10 +11,10 @@
 #define vtkPVRenderViewWithSilhouettes_h
 
 #include "ParticleOcclusionRepresentationsModule.h"
+#include "vtkDepthSilhouettePass.h"
+#include "vtkForwardSilhouettesMacro.h"
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
-
-class vtkDepthSilhouettePass;
 
 class PARTICLEOCCLUSIONREPRESENTATIONS_EXPORT vtkPVRenderViewWithSilhouettes
   : public vtkPVRenderView
@@ -24,21 +24,7 @@ public:
   vtkTypeMacro(vtkPVRenderViewWithSilhouettes, vtkPVRenderView);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{
-  /**
-   * Forwarded to the pass; see vtkDepthSilhouettePass.
-   */
-  void SetSilhouetteVisibility(bool visible);
-  bool GetSilhouetteVisibility();
-  void SetSilhouetteThreshold(double threshold);
-  double GetSilhouetteThreshold();
-  void SetSilhouetteBackgroundDepth(double depth);
-  double GetSilhouetteBackgroundDepth();
-  void SetSilhouetteColor(double red, double green, double blue);
-  double* GetSilhouetteColor() VTK_SIZEHINT(3);
-  void SetSilhouetteOpacity(double opacity);
-  double GetSilhouetteOpacity();
-  ///@}
+  vtkForwardSilhouettesMacro(Silhouettes);
 
 protected:
   vtkPVRenderViewWithSilhouettes();

@@ -179,6 +179,8 @@ vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
       }
     });
   this->Mapper->AddObserver(vtkCommand::UpdateEvent, this->Refine->Command);
+  this->Silhouettes->AddActor(this->Actor);
+  this->Silhouettes->LineVisibilityOff();
 }
 
 vtkRayTracedSphereRepresentation::~vtkRayTracedSphereRepresentation() = default;
@@ -193,6 +195,7 @@ bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
   this->View = renderView;
   renderView->GetRenderer()->AddActor(this->Actor);
   this->Refine->Timer = std::make_unique<po::RefinementTimer>(renderView);
+  renderView->GetRenderer()->AddViewProp(this->Silhouettes);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::AddToView(view);
 }
@@ -206,6 +209,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
   this->Refine->Timer.reset();
+  renderView->GetRenderer()->RemoveViewProp(this->Silhouettes);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   this->ReleaseMemory();
   return this->Superclass::RemoveFromView(view);
@@ -277,8 +281,22 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
     this->UpdateColoring();
     this->UpdateCropping();
     this->UpdateRefinement();
+    this->UpdateSilhouettes();
   }
   return 1;
+}
+
+void vtkRayTracedSphereRepresentation::UpdateSilhouettes()
+{
+  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
+  const bool alone = !processes || processes->GetNumberOfProcesses() == 1;
+  if (!alone && this->Silhouettes->GetLineVisibility() && this->Silhouettes->GetVisibility() &&
+    processes->GetLocalProcessId() == 0)
+  {
+    vtkWarningMacro("Several processes draw these spheres, and none knows all depths before the "
+                    "picture is composited: use Render View (Silhouettes) for lines.");
+  }
+  this->Silhouettes->SetVisibility(alone && this->Actor->GetVisibility());
 }
 
 void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
@@ -378,6 +396,7 @@ void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
   {
     this->ReleaseMemory();
   }
+  this->Silhouettes->SetVisibility(visible);
   this->Superclass::SetVisibility(visible);
 }
 

@@ -15,9 +15,11 @@
 #define vtkRayTracedSphereRepresentation_h
 
 #include "ParticleOcclusionRepresentationsModule.h"
+#include "vtkForwardSilhouettesMacro.h"
 #include "vtkNew.h"
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h"
+#include "vtkSphereSilhouettes.h"
 #include "vtkTimeStamp.h"
 #include "vtkWeakPointer.h"
 
@@ -129,6 +131,13 @@ public:
   /// processes draw together, or the file cannot be written.
   void WriteLayers();
 
+  ///@{
+  /// Lines where the depth jumps, in whatever render view this is shown; see vtkSphereSilhouettes.
+  /// Default: not visible. Only where one process draws all spheres: with several, a view with
+  /// silhouettes finds lines after compositing.
+  vtkForwardSilhouettesMacro(Silhouettes);
+  ///@}
+
   /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
   void SetMapScalars(int map);
 
@@ -176,9 +185,11 @@ private:
   void UpdateColoring();
   void UpdateCropping();
   void UpdateRefinement();
+  void UpdateSilhouettes();
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
+  vtkNew<vtkSphereSilhouettes> Silhouettes;
   vtkSmartPointer<vtkPolyData> Particles;
   vtkSmartPointer<vtkDataObject> Piece; ///< the particles as they are delivered
   std::unique_ptr<po::DeliveredParticles> Delivered;

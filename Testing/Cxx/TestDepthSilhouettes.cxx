@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -126,19 +127,25 @@ TEST(DepthSilhouettes, SlicesAreIndependent)
   EXPECT_TRUE(std::equal(single.begin(), single.end(), both.begin() + single.size()));
 }
 
-TEST(DepthSilhouettes, ThreadsDoNotMatter)
+TEST(DepthSilhouettes, SeveralSamplesAPixelGiveASmallerImage)
 {
   vtkNew<vtkDepthSilhouettes> filter;
-  filter->SetInputData(makeImage(3));
-  filter->SetNumberOfThreads(1);
+  filter->SetInputData(makeImage(2));
+  filter->SetSamples(2);
   filter->Update();
-  const std::vector<float> one = values(filter->GetOutput());
-  filter->SetNumberOfThreads(7);
-  filter->Update();
-  EXPECT_EQ(values(filter->GetOutput()), one);
-  filter->SetEnableSMP(true);
-  filter->Update();
-  EXPECT_EQ(values(filter->GetOutput()), one);
+  vtkImageData* output = filter->GetOutput();
+  int size[3];
+  output->GetDimensions(size);
+  EXPECT_EQ(size[0], 32);
+  EXPECT_EQ(size[1], 25);
+  EXPECT_EQ(size[2], 2);
+  EXPECT_EQ(output->GetSpacing()[0], 2);
+  EXPECT_EQ(output->GetOrigin()[0], -3 + 0.5);
+  EXPECT_FALSE(output->GetPointData()->HasArray("Z"));
+  const std::vector<float> line = values(output);
+  const auto partly =
+    std::count_if(line.begin(), line.end(), [](float value) { return value > 0 && value < 1; });
+  EXPECT_GT(partly, 50);
 }
 
 TEST(DepthSilhouettes, TakesTheChosenArray)
@@ -189,6 +196,13 @@ TEST(DepthSilhouettes, Errors)
   filter->SetThreshold(1.0);
   filter->SetBackgroundDepth(std::numeric_limits<double>::quiet_NaN());
   EXPECT_NE(errorOf(filter).find("BackgroundDepth"), std::string::npos);
+
+  filter->SetBackgroundDepth(0);
+  filter->SetThresholdUnit(1);
+  EXPECT_NE(errorOf(filter).find("ParticleRadius"), std::string::npos);
+  filter->SetThresholdUnit(0);
+  filter->SetSamples(4); // 64 x 50
+  EXPECT_NE(errorOf(filter).find("multiple of Samples"), std::string::npos);
 
   vtkNew<vtkImageData> empty;
   empty->SetDimensions(4, 4, 1);

@@ -4,6 +4,7 @@
 
 #include "BakeSettings.h"
 #include "ParameterTable.h"
+#include "SilhouetteParametersOf.h"
 #include "SphereInput.h"
 
 #include "vtkDepthSilhouettes.h"
@@ -11,6 +12,8 @@
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <gtest/gtest.h>
+
+#include <sstream>
 
 namespace
 {
@@ -63,9 +66,33 @@ TEST(ParameterDefaults, OfTheImageFilterAgreeWithItsXml)
 {
   vtkNew<vtkDepthSilhouettes> f;
   const ParameterTable defaults{
+    { "LineDensity", { f->GetLineDensity() } },
     { "Threshold", { f->GetThreshold() } },
+    { "ThresholdUnit", { f->GetThresholdUnit() } },
+    { "Samples", { f->GetSamples() } },
+    { "LineWidth", { f->GetLineWidth() } },
+    { "WidthByJump", { f->GetWidthByJump() } },
+    { "MaximumLineWidth", { f->GetMaximumLineWidth() } },
+    { "GreyByJump", { f->GetGreyByJump() } },
+    { "JumpFrom", { f->GetJumpFrom() } },
+    { "JumpTo", { f->GetJumpTo() } },
+    { "SlopeTest", { f->GetSlopeTest() } },
+    { "BackgroundLines", { f->GetBackgroundLines() } },
     { "BackgroundDepth", { f->GetBackgroundDepth() } },
+    { "ParticleRadius", { f->GetParticleRadius() } },
   };
   expectDefaultsOfXml("DepthSilhouettes.xml", "DepthSilhouettes", defaults);
+}
+
+TEST(ParameterDefaults, OfTheImageFilterAgreeWithTheCore)
+{
+  vtkNew<vtkDepthSilhouettes> f;
+  po::SilhouetteParameters core = po::silhouetteParametersOf(*f);
+  EXPECT_EQ(core.samples, 1); // a depth image has one depth a pixel
+  core.samples = po::SilhouetteParameters().samples;
+  std::ostringstream ofFilter, ofCore;
+  po::print(ofFilter, "", core);
+  po::print(ofCore, "", po::SilhouetteParameters());
+  EXPECT_EQ(ofFilter.str(), ofCore.str());
 }
 }

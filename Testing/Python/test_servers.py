@@ -2,7 +2,9 @@
 """The plugin in pvbatch and in a pvserver that a pvpython client connects to, with remote and with local
 rendering: the same picture everywhere.
 
-Usage: pvpython test_servers.py PVPYTHON PVBATCH PVSERVER
+Two ranks with a part of the particles each draw the lines that one rank draws.
+
+Usage: pvpython test_servers.py PVPYTHON PVBATCH PVSERVER MPIEXEC
 """
 import os
 import subprocess
@@ -54,6 +56,42 @@ def wait_for(file):
     return False
 
 
+RANKS = """
+import os
+from paraview.simple import *
+LoadPlugin(os.environ["PARTICLEOCCLUSION_PLUGIN"], ns=globals())
+particles = ConvertToPointCloud(Input=Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6]))  # a part on each rank
+view = CreateView("RenderViewWithSilhouettes")
+view.ViewSize = [300, 240]
+view.OrientationAxesVisibility = 0
+view.UseFXAA = 0
+view.SilhouetteSamples = 1
+view.SilhouetteThreshold = 2
+display = Show(particles, view)
+display.SetRepresentationType("Ray-Traced Spheres")
+display.RadiusArray = "(none)"
+display.ConstantRadius = 0.4
+ColorBy(display, None)
+ResetCamera(view)
+view.GetActiveCamera().Azimuth(30)
+view.GetActiveCamera().Elevation(20)
+SaveScreenshot(r"{picture}", view, ImageResolution=[300, 240])
+"""
+
+
+def run_ranks(mpiexec, pvbatch, folder, ranks):
+    """Lines that are found after compositing; returns the path of the picture."""
+    picture = os.path.join(folder, f"ranks{ranks}.png")
+    script = os.path.join(folder, f"ranks{ranks}.py")
+    with open(script, "w", encoding="utf-8") as file:
+        file.write(RANKS.format(picture=picture))
+    done = subprocess.run([mpiexec, "-n", str(ranks), pvbatch, script], capture_output=True, text=True,
+                          timeout=100, check=False, env=servers.mpi_environment())
+    if done.returncode != 0 or not os.path.exists(picture):
+        raise SystemExit(f"{ranks} ranks failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")
+    return picture
+
+
 def run_session(executable, folder, name, port=0, threshold=0):
     """Runs the session; returns the path of its picture."""
     picture = os.path.join(folder, name + ".png")
@@ -75,7 +113,7 @@ def with_server(pvserver, pvpython, folder, name, threshold):
 
 
 def main():
-    pvpython, pvbatch, pvserver = sys.argv[1:4]
+    pvpython, pvbatch, pvserver, mpiexec = sys.argv[1:5]
     with tempfile.TemporaryDirectory() as folder:
         reference = run_session(pvpython, folder, "pvpython")
         others = [
@@ -85,6 +123,8 @@ def main():
         ]
         for picture in others:
             images.compare_files(picture, reference)
+        images.compare_files(run_ranks(mpiexec, pvbatch, folder, 2), run_ranks(mpiexec, pvbatch, folder, 1),
+                             rms=0.5, outliers=0.0002)
 
 
 main()

@@ -43,6 +43,21 @@ def widened(mask):
     return numpy.logical_or.reduce(shifts)
 
 
+def plain_view(view):
+    view.ViewSize = SIZE
+    view.UseFXAA = 0
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.Background = (0.0, 1.0, 0.0)
+    return view
+
+
+def aim_camera(view):
+    simple.ResetCamera(view)
+    view.GetActiveCamera().Azimuth(30)
+    view.GetActiveCamera().Elevation(20)
+
+
 class SilhouetteView(unittest.TestCase):
     def setUp(self):
         self.view = simple.CreateView("RenderViewWithSilhouettes")
@@ -51,6 +66,7 @@ class SilhouetteView(unittest.TestCase):
         self.view.OrientationAxesVisibility = 0
         self.view.UseColorPaletteForBackground = 0
         self.view.Background = (0.0, 1.0, 0.0)
+        self.view.SilhouetteSamples = 1  # lines of whole pixels
         self.view.SilhouetteColor = [channel / 255 for channel in COLOR]
         self.sphere = simple.Sphere(ThetaResolution=128, PhiResolution=128)
         simple.Show(self.sphere, self.view)
@@ -108,6 +124,99 @@ class SilhouetteView(unittest.TestCase):
         simple.SelectSurfaceCells(Rectangle=[140, 110, 160, 130], View=self.view)
         self.assertIsNotNone(self.sphere.SMProxy.GetSelectionInput(0))
         simple.ClearSelection()
+
+
+class LinesOfARepresentation(unittest.TestCase):
+    """Lines in ParaView's plain render view."""
+
+    def setUp(self):
+        self.view = plain_view(simple.CreateRenderView())
+        self.source = simple.ConvertToPointCloud(Input=simple.Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6]))
+        self.display = simple.Show(self.source, self.view)
+        self.display.SetRepresentationType("Ray-Traced Spheres")
+        self.display.RadiusArray = "(none)"
+        self.display.ConstantRadius = 0.4
+        self.display.SilhouetteColor = [channel / 255 for channel in COLOR]
+        self.display.SilhouetteSamples = 1
+        aim_camera(self.view)
+
+    def tearDown(self):
+        simple.Delete(self.view)
+        simple.Delete(self.source)
+
+    def test_switch(self):
+        self.assertFalse(lines(picture(self.view)).any())
+        self.display.SilhouetteVisibility = 1
+        found = lines(picture(self.view)).sum()
+        self.assertGreater(found, 500)
+        self.display.SilhouetteLineDensity = 1
+        self.assertGreater(lines(picture(self.view)).sum(), found)
+        self.display.SilhouetteLineDensity = 0
+        self.assertFalse(lines(picture(self.view)).any())
+        self.display.SilhouetteLineDensity = 0.5
+        self.display.Visibility = 0
+        self.assertFalse(lines(picture(self.view)).any())
+
+    def test_agrees_with_the_special_view(self):
+        special = plain_view(simple.CreateView("RenderViewWithSilhouettes"))
+        special.SilhouetteColor = [channel / 255 for channel in COLOR]
+        display = simple.Show(self.source, special)
+        display.SetRepresentationType("Ray-Traced Spheres")
+        display.RadiusArray = "(none)"
+        display.ConstantRadius = 0.4
+        aim_camera(special)
+        self.display.SilhouetteVisibility = 1
+        special.SilhouetteSamples = 1
+        here, there = lines(picture(self.view)), lines(picture(special))
+        self.assertGreater(here.sum(), 500)
+        self.assertLess((here != there).sum(), 0.01 * here.sum())
+        simple.Delete(special)
+
+    def test_chained_with_tone_mapping_and_selection(self):
+        self.display.SilhouetteVisibility = 1
+        plain = lines(picture(self.view))
+        self.view.UseToneMapping = 1
+        toned = picture(self.view)
+        self.display.SilhouetteVisibility = 0
+        without = picture(self.view)
+        changed = (toned != without).any(axis=2)
+        self.assertGreater((changed & plain).sum(), 0.9 * plain.sum())
+        self.assertLess((changed & ~plain).sum(), 0.02 * plain.sum())
+        self.view.UseToneMapping = 0
+        self.display.SilhouetteVisibility = 1
+        simple.SelectSurfacePoints(Rectangle=[100, 80, 200, 160], View=self.view)
+        self.assertIsNotNone(self.display.SMProxy.GetRepresentedDataInformation())
+        simple.ClearSelection()
+
+    def test_large_screenshot(self):
+        self.display.SilhouetteVisibility = 1
+        large = lines(picture(self.view, size=(600, 480)))
+        self.view.ViewSize = (600, 480)
+        whole = lines(picture(self.view, size=(600, 480)))
+        self.assertGreater(whole.sum(), 1000)
+        self.assertLess((large != whole).sum(), 0.01 * whole.sum())
+
+
+class SpecialViewChains(unittest.TestCase):
+    def test_tone_mapping_keeps_the_lines(self):
+        view = simple.CreateView("RenderViewWithSilhouettes")
+        view.ViewSize = SIZE
+        view.UseFXAA = 0
+        view.OrientationAxesVisibility = 0
+        view.SilhouetteSamples = 1
+        view.SilhouetteColor = [channel / 255 for channel in COLOR]
+        sphere = simple.Sphere(ThetaResolution=64, PhiResolution=64)
+        simple.Show(sphere, view)
+        simple.ResetCamera(view)
+        plain = lines(picture(view))
+        self.assertGreater(plain.sum(), 300)
+        view.UseToneMapping = 1
+        toned = picture(view)
+        view.SilhouetteVisibility = 0
+        changed = (toned != picture(view)).any(axis=2)
+        self.assertGreater((changed & plain).sum(), 0.9 * plain.sum())
+        simple.Delete(view)
+        simple.Delete(sphere)
 
 
 class DepthSilhouettes(unittest.TestCase):

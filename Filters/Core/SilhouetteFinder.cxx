@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SilhouetteFinder.h"
+
+#include "SilhouetteEdges.h"
+#include "SilhouetteTiles.h"
+
+#include <cmath>
+
+namespace po
+{
+namespace
+{
+constexpr float InfinityF = std::numeric_limits<float>::infinity();
+
+/// Paints the lines of one tile after the other from samples.
+class SamplePainter
+{
+public:
+  SamplePainter(const DepthSource& source, const SilhouetteRule& rule, bool findFronts)
+    : source_(source)
+    , rule_(rule)
+    , findFronts_(findFronts)
+    , spreads_(rule.samples > 1 || rule.maximumWidth > 1)
+    , finder_(rule, rule.samples, spreads_ ? reachOf(rule) : 0)
+  {
+  }
+
+  bool paint(int tileX, int tileY, const DepthRange& range, SilhouetteImage& image)
+  {
+    const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
+    const int columns = std::min(DepthTileSize, image.width - x);
+    const int rows = std::min(DepthTileSize, image.height - y);
+    if (!finder_.find(source_, x, y, columns, rows, range))
+    {
+      return false;
+    }
+    if (!spreads_)
+    {
+      writeEdges(x, y, image);
+      return true;
+    }
+    cover_.assign(finder_.block().depth.size(), InfinityF);
+    fronts_.resize(findFronts_ ? cover_.size() : 0);
+    spread_.assign(cover_.size(), 0);
+    for (const SilhouetteEdge& edge : finder_.edges())
+    {
+      cover(edge.behind, edge.front);
+      spread(edge);
+    }
+    writeStrength(x, y, columns, rows, image);
+    return true;
+  }
+
+private:
+  /// Pixels from which a line can reach into a tile.
+  static int reachOf(const SilhouetteRule& rule)
+  {
+    return static_cast<int>(std::ceil(rule.maximumWidth)) + (rule.samples == 1 ? 2 : 1);
+  }
+
+  /// Lines of one pixel: the edges themselves.
+  void writeEdges(int x, int y, SilhouetteImage& image) const
+  {
+    const SampleBlock& block = finder_.block();
+    clearTile(image, x / DepthTileSize, y / DepthTileSize);
+    for (const SilhouetteEdge& edge : finder_.edges())
+    {
+      const int pixel = block.pixelOf(edge.behind, image.width, image.height);
+      const float jump = block.depth[static_cast<std::size_t>(edge.behind)] -
+        block.depth[static_cast<std::size_t>(edge.front)];
+      image.strength[static_cast<std::size_t>(pixel)] = rule_.greyByJump ? rule_.ramp.at(jump) : 1;
+      if (findFronts_)
+      {
+        image.front[static_cast<std::size_t>(pixel)] =
+          block.pixelOf(edge.front, image.width, image.height);
+      }
+    }
+  }
+
+  void cover(int behind, int front)
+  {
+    const float depth = finder_.block().depth[static_cast<std::size_t>(front)];
+    if (depth < cover_[static_cast<std::size_t>(behind)])
+    {
+      cover_[static_cast<std::size_t>(behind)] = depth;
+      if (findFronts_)
+      {
+        fronts_[static_cast<std::size_t>(behind)] = front;
+      }
+    }
+  }
+
+  /// Covers the disc of a line's width about the front sample, as far as it lies behind it.
+  void spread(const SilhouetteEdge& edge)
+  {
+    const int stride = finder_.block().stride();
+    const float growth = rule_.ramp.at(edge.jump);
+    const double width = rule_.width + growth * (rule_.maximumWidth - rule_.width);
+    // The rim of the front lies, in the mean, half a sample beyond its last sample.
+    const double radius = width * rule_.samples + 0.5;
+    float& done = spread_[static_cast<std::size_t>(edge.front)];
+    if (static_cast<float>(radius) <= done)
+    {
+      return; // for another sample behind the same front
+    }
+    done = static_cast<float>(radius);
+    const int height = static_cast<int>(radius);
+    for (int dj = -height; dj <= height; ++dj)
+    {
+      const int half = static_cast<int>(std::sqrt(radius * radius - dj * dj));
+      coverRow(edge.front, edge.front % stride, edge.front / stride + dj, half);
+    }
+  }
+
+  void coverRow(int front, int frontI, int j, int half)
+  {
+    const SampleBlock& block = finder_.block();
+    if (j < 0 || j >= block.rows * block.samples)
+    {
+      return;
+    }
+    const int start = j * block.stride();
+    const int begin = start + std::max(0, frontI - half);
+    const int end = start + std::min(block.stride(), frontI + half + 1);
+    const float behind =
+      block.depth[static_cast<std::size_t>(front)] + static_cast<float>(rule_.jump);
+    const float farthest = rule_.backgroundLines ? InfinityF : std::numeric_limits<float>::max();
+    for (int at = begin; at < end; ++at)
+    {
+      const float depth = block.depth[static_cast<std::size_t>(at)];
+      if (depth > behind && depth <= farthest)
+      {
+        cover(at, front);
+      }
+    }
+  }
+
+  void writeStrength(int x, int y, int columns, int rows, SilhouetteImage& image) const
+  {
+    for (int j = 0; j < rows; ++j)
+    {
+      for (int i = 0; i < columns; ++i)
+      {
+        const std::size_t pixel = static_cast<std::size_t>(y + j) * image.width + x + i;
+        int front = -1;
+        image.strength[pixel] = strengthOf(i, j, front);
+        if (findFronts_ && front >= 0)
+        {
+          image.front[pixel] = finder_.block().pixelOf(front, image.width, image.height);
+        }
+      }
+    }
+  }
+
+  /// Share of a pixel's samples that is covered, weighted by their grey.
+  float strengthOf(int i, int j, int& front) const
+  {
+    const SampleBlock& block = finder_.block();
+    const int stride = block.stride(), samples = rule_.samples;
+    const int first = ((finder_.margin() + j) * stride + finder_.margin() + i) * samples;
+    float sum = 0;
+    for (int dj = 0; dj < samples; ++dj)
+    {
+      for (int at = first + dj * stride; at < first + dj * stride + samples; ++at)
+      {
+        const float nearest = cover_[static_cast<std::size_t>(at)];
+        if (nearest < InfinityF)
+        {
+          const float jump = block.depth[static_cast<std::size_t>(at)] - nearest;
+          sum += rule_.greyByJump ? rule_.ramp.at(jump) : 1;
+          front = findFronts_ ? fronts_[static_cast<std::size_t>(at)] : -1;
+        }
+      }
+    }
+    return sum / static_cast<float>(samples * samples);
+  }
+
+  const DepthSource& source_;
+  const SilhouetteRule& rule_;
+  bool findFronts_;
+  bool spreads_; ///< lines are wider than the edge samples
+  EdgeFinder finder_;
+  std::vector<float> cover_;  ///< depth of the nearest front that covers a sample
+  std::vector<int> fronts_;   ///< and its sample
+  std::vector<float> spread_; ///< radius that a front sample has covered
+};
+}
+
+bool mayHaveEdge(const SilhouetteRule& rule, DepthRange range)
+{
+  if (!range.hasGeometry())
+  {
+    return false;
+  }
+  if (range.background && rule.backgroundLines)
+  {
+    if (!std::isfinite(rule.background))
+    {
+      return true;
+    }
+    range.add(rule.background);
+  }
+  // Depths are searched as floats relative to the nearest, which may round the difference up.
+  return (range.farthest - range.nearest) * (1 + 1e-6) > smallestStep(rule);
+}
+
+void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts)
+{
+  const auto pixels = static_cast<std::size_t>(source.width()) * source.height();
+  if (image.width != source.width() || image.height != source.height())
+  {
+    image.width = source.width();
+    image.height = source.height();
+    image.strength.assign(pixels, 0);
+    image.tileHasLines.assign(
+      static_cast<std::size_t>(depthTiles(image.width)) * depthTiles(image.height), 0);
+  }
+  image.front.resize(findFronts ? pixels : 0);
+}
+
+void clearTile(SilhouetteImage& image, int tileX, int tileY)
+{
+  const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
+  for (int j = y; j < std::min(y + DepthTileSize, image.height); ++j)
+  {
+    std::fill_n(image.strength.begin() + static_cast<std::ptrdiff_t>(j) * image.width + x,
+      std::min(DepthTileSize, image.width - x), 0.0F);
+  }
+}
+
+SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRule& rule,
+  SilhouetteImage& image, const SilhouetteOptions& options)
+{
+  return paintTiles(
+    source, rule, image, options, [&] { return SamplePainter(source, rule, options.findFronts); });
+}
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SilhouettePixels.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace po
+{
+namespace
+{
+constexpr float NoLine = 2;
+
+std::uint8_t toByte(float value)
+{
+  return static_cast<std::uint8_t>(255.0F * std::clamp(value, 0.0F, 1.0F) + 0.5F);
+}
+
+class Colorer
+{
+public:
+  Colorer(const SilhouetteImage& lines, const SilhouetteStyle& style,
+    const SilhouetteSurroundings& surroundings, SilhouettePixels& pixels)
+    : lines_(lines)
+    , style_(style)
+    , surroundings_(surroundings)
+    , pixels_(pixels)
+  {
+  }
+
+  void colorTile(int tileX, int tileY) const
+  {
+    const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
+    for (int j = y; j < std::min(y + DepthTileSize, lines_.height); ++j)
+    {
+      for (int i = x; i < std::min(x + DepthTileSize, lines_.width); ++i)
+      {
+        colorPixel(static_cast<std::size_t>(j) * lines_.width + i);
+      }
+    }
+  }
+
+private:
+  void colorPixel(std::size_t pixel) const
+  {
+    std::uint8_t* rgba = &pixels_.rgba[4 * pixel];
+    const float strength = lines_.strength[pixel];
+    rgba[3] = toByte(strength * style_.opacity);
+    pixels_.depth[pixel] = strength > 0 ? depthAt(pixel) : NoLine;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+    {
+      rgba[channel] = toByte(style_.color[channel]);
+    }
+    if (strength > 0 && style_.darken && surroundings_.rgba)
+    {
+      const std::uint8_t* front =
+        surroundings_.rgba + 4 * static_cast<std::size_t>(lines_.front[pixel]);
+      std::transform(front, front + 3, rgba,
+        [](std::uint8_t value) { return toByte(SilhouetteDarkness / 255 * value); });
+    }
+  }
+
+  [[nodiscard]] float depthAt(std::size_t pixel) const
+  {
+    const float* depth = surroundings_.windowDepth;
+    // A line also covers parts of pixels that show what is in front of it.
+    return depth ? std::min(depth[lines_.front[pixel]], depth[pixel]) : 0;
+  }
+
+  const SilhouetteImage& lines_;
+  const SilhouetteStyle& style_;
+  const SilhouetteSurroundings& surroundings_;
+  SilhouettePixels& pixels_;
+};
+}
+
+void colorSilhouettes(const SilhouetteImage& lines, const SilhouetteStyle& style,
+  const SilhouetteSurroundings& surroundings, SilhouettePixels& pixels)
+{
+  const std::size_t count = lines.strength.size();
+  if (pixels.depth.size() != count || pixels.tileHasLines.size() != lines.tileHasLines.size())
+  {
+    pixels.rgba.assign(4 * count, 0);
+    pixels.depth.assign(count, NoLine);
+    pixels.tileHasLines.assign(lines.tileHasLines.size(), 0);
+  }
+  const Colorer colorer(lines, style, surroundings, pixels);
+  const int columns = depthTiles(lines.width);
+  tbb::parallel_for(tbb::blocked_range<int>(0, static_cast<int>(lines.tileHasLines.size()), 64),
+    [&](const tbb::blocked_range<int>& tiles)
+    {
+      for (int tile = tiles.begin(); tile < tiles.end(); ++tile)
+      {
+        const auto at = static_cast<std::size_t>(tile);
+        if (lines.tileHasLines[at] != 0 || pixels.tileHasLines[at] != 0)
+        {
+          colorer.colorTile(tile % columns, tile / columns);
+        }
+        pixels.tileHasLines[at] = lines.tileHasLines[at];
+      }
+    });
+}
+}

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_SilhouetteRims_h
+#define po_SilhouetteRims_h
+
+#include "SilhouetteFinder.h"
+#include "TracedDepth.h"
+
+namespace po
+{
+/// Silhouettes of traced spheres.
+///
+/// With one sample a pixel they are those of findSilhouettes() from the same depths, bit for bit.
+///
+/// With more, edges are found between pixels, and each line is drawn where the rim of the sphere in
+/// front of it truly is: the strength of a pixel is the share of its area between the rim and the
+/// line's width beyond it. No ray is traced for that: the distance of a pixel from the rim follows
+/// from the sphere, as (h - r) / |grad h| with h the distance of its centre from the pixel's ray,
+/// and the rim is taken as straight within a pixel. It is what infinitely many samples would give,
+/// as long as particles are larger than a pixel; the number of samples does not matter.
+SilhouetteCounters findTracedSilhouettes(const TracedDepth& depth, const SilhouetteRule& rule,
+  SilhouetteImage& image, const SilhouetteOptions& options = {});
+}
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TracedLayers.h"
+
+#include "SphereRenderer.h"
+#include "vtkRayTracedSphereMapper.h"
+
+#include "vtkActor.h"
+#include "vtkMatrix4x4.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace po
+{
+namespace
+{
+/// World length of a unit length of an actor's coordinates, in the mean over all directions.
+double scaleOf(vtkActor* actor)
+{
+  return std::cbrt(std::abs(actor->GetMatrix()->Determinant()));
+}
+}
+
+TracedActor tracedActorOf(vtkProp* prop, int width, int height)
+{
+  auto* actor = vtkActor::SafeDownCast(prop);
+  auto* mapper = actor ? vtkRayTracedSphereMapper::SafeDownCast(actor->GetMapper()) : nullptr;
+  if (!mapper)
+  {
+    return { nullptr, nullptr };
+  }
+  const SphereRenderer& renderer = mapper->GetSphereRenderer();
+  const TracedFrame& frame = renderer.frame();
+  const bool isCurrent = renderer.isShaded() && frame.width == width && frame.height == height;
+  return isCurrent ? TracedActor{ actor, &renderer } : TracedActor{ nullptr, nullptr };
+}
+
+TracedDepth depthOf(const std::vector<TracedActor>& actors)
+{
+  std::vector<TracedLayer> layers;
+  for (const TracedActor& one : actors)
+  {
+    layers.push_back(
+      { one.renderer->frame(), one.renderer->rays(), one.renderer->cloud().spheres });
+  }
+  return TracedDepth(std::move(layers));
+}
+
+SilhouetteScale scaleOf(const std::vector<TracedActor>& actors)
+{
+  double radii = 0, count = 0, largest = 0;
+  for (const TracedActor& one : actors)
+  {
+    const SphereCloud& cloud = one.renderer->cloud();
+    const auto particles = static_cast<double>(cloud.spheres.size());
+    radii += particles * scaleOf(one.actor) * cloud.scale;
+    count += particles;
+    largest = std::max(largest, one.actor->GetLength());
+  }
+  return { count > 0 ? radii / count : 0, largest };
+}
+
+void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth)
+{
+  windowDepth = actors.front().renderer->frame().windowDepth;
+  for (std::size_t i = 1; i < actors.size(); ++i)
+  {
+    const std::vector<float>& other = actors[i].renderer->frame().windowDepth;
+    std::transform(other.begin(), other.end(), windowDepth.begin(), windowDepth.begin(),
+      [](float a, float b) { return std::min(a, b); });
+  }
+}
+
+void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba)
+{
+  rgba = actors.front().renderer->rgba();
+  std::vector<double> nearest = actors.front().renderer->frame().t;
+  for (std::size_t i = 1; i < actors.size(); ++i)
+  {
+    const std::vector<double>& t = actors[i].renderer->frame().t;
+    const std::vector<std::uint8_t>& other = actors[i].renderer->rgba();
+    for (std::size_t pixel = 0; pixel < t.size(); ++pixel)
+    {
+      if (t[pixel] < nearest[pixel])
+      {
+        nearest[pixel] = t[pixel];
+        std::copy_n(other.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4,
+          rgba.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
+      }
+    }
+  }
+}
+
+bool isTile(vtkRenderer* renderer)
+{
+  const int* scale = renderer->GetRenderWindow()->GetTileScale();
+  return scale[0] > 1 || scale[1] > 1;
+}
+
+int tileMarginOf(const SilhouetteParameters& parameters)
+{
+  return static_cast<int>(std::max(parameters.width, parameters.maximumWidth)) + 4;
+}
+}

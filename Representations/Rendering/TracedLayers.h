@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_TracedLayers_h
+#define po_TracedLayers_h
+
+#include "SilhouettePixels.h"
+#include "TracedDepth.h"
+
+#include <vector>
+
+class vtkActor;
+class vtkProp;
+class vtkRenderer;
+
+namespace po
+{
+class SphereRenderer;
+
+/// A mapper of ray-traced spheres that has a frame, with its actor.
+struct TracedActor
+{
+  vtkActor* actor;
+  const SphereRenderer* renderer;
+};
+
+/// The prop as an actor of ray-traced spheres whose last frame is of this size; null pointers if it
+/// is none.
+[[nodiscard]] TracedActor tracedActorOf(vtkProp* prop, int width, int height);
+
+[[nodiscard]] TracedDepth depthOf(const std::vector<TracedActor>& actors);
+
+/// Mean radius over all particles, and the largest diagonal of an actor's bounds, in world units.
+[[nodiscard]] SilhouetteScale scaleOf(const std::vector<TracedActor>& actors);
+
+/// Window depth of each pixel, the nearest of all actors.
+void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth);
+
+/// RGBA bytes of each pixel, of the nearest of all actors.
+void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba);
+
+/// Does the window show one tile of a larger picture?
+[[nodiscard]] bool isTile(vtkRenderer* renderer);
+
+/// Pixels around a tile that its lines depend on: their width, and some for the jump, the slopes
+/// and rounding.
+[[nodiscard]] int tileMarginOf(const SilhouetteParameters& parameters);
+
+/// Style of an object with vtkSilhouetteStyleMacro.
+template <typename Object>
+[[nodiscard]] SilhouetteStyle silhouetteStyleOf(Object& object)
+{
+  const double* color = object.GetColor();
+  return { { static_cast<float>(color[0]), static_cast<float>(color[1]),
+             static_cast<float>(color[2]) },
+    static_cast<float>(object.GetOpacity()), object.GetDarken() };
+}
+}
+
+#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class vtkSphereSilhouettes
+ * @brief Prop that draws the silhouettes of actors of ray-traced spheres, in any renderer.
+ *
+ * Lines are found in the traced frames of vtkRayTracedSphereMapper, so that nothing is traced or
+ * read back for them, and drawn after all surfaces, hidden by what is nearer than the spheres in
+ * front of them. Other actors have no lines and move none. No render pass is needed, so that
+ * whatever else draws or processes the picture goes on as without this prop.
+ *
+ * Add it to the renderer of the actors. The parameters are those of vtkDepthSilhouettePass; the
+ * automatic threshold is derived from the particles of these actors alone.
+ *
+ * Errors (no lines are drawn): a parameter out of its range, a shader that does not compile.
+ */
+#ifndef vtkSphereSilhouettes_h
+#define vtkSphereSilhouettes_h
+
+#include "ParticleOcclusionRenderingModule.h"
+#include "vtkProp.h"
+#include "vtkSilhouetteParametersMacro.h"
+#include "vtkSilhouetteStyleMacro.h"
+
+#include <memory>
+#include <string>
+
+class vtkActor;
+class vtkRenderer;
+
+namespace po
+{
+struct SilhouetteViewport;
+}
+
+class PARTICLEOCCLUSIONRENDERING_EXPORT vtkSphereSilhouettes : public vtkProp
+{
+public:
+  static vtkSphereSilhouettes* New();
+  vtkTypeMacro(vtkSphereSilhouettes, vtkProp);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  vtkSilhouetteParametersMacro(4);
+  vtkSilhouetteStyleMacro();
+
+public:
+  ///@{
+  /**
+   * Actors whose mapper is a vtkRayTracedSphereMapper, in the renderer that has this prop. Those
+   * that are not visible are left out.
+   */
+  void AddActor(vtkActor* actor);
+  void RemoveAllActors();
+  ///@}
+
+  vtkTypeBool HasOpaqueGeometry() override { return 0; }
+  int RenderVolumetricGeometry(vtkViewport* viewport) override;
+  void ReleaseGraphicsResources(vtkWindow* window) override;
+
+protected:
+  vtkSphereSilhouettes();
+  ~vtkSphereSilhouettes() override;
+
+private:
+  vtkSphereSilhouettes(const vtkSphereSilhouettes&) = delete;
+  void operator=(const vtkSphereSilhouettes&) = delete;
+
+  bool Find(const po::SilhouetteViewport& place);
+  std::string FindAround(vtkRenderer* renderer, const po::SilhouetteViewport& tile, int margin);
+
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
