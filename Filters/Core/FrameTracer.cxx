@@ -42,16 +42,12 @@ struct PreparedRay
   float end = -1; ///< length from the start; negative: nothing can be hit
 };
 
-/// Where the sphere points lie, a little enlarged so that rounding cannot cut anything off.
-Box boundsOf(const SphereScene& scene)
+/// Where the spheres lie, a little enlarged so that rounding cannot cut anything off.
+Box boundsOf(const Brick& brick)
 {
-  RTCBounds b;
-  rtcGetSceneBounds(scene.handle(), &b);
-  const Vec3d low{ b.lower_x, b.lower_y, b.lower_z };
-  const Vec3d high{ b.upper_x, b.upper_y, b.upper_z };
-  const double margin = 1e-5 * length(high - low);
+  const double margin = 1e-5 * length(brick.high - brick.low);
   const Vec3d grow{ margin, margin, margin };
-  return { low - grow, high + grow };
+  return { brick.low - grow, brick.high + grow };
 }
 
 /// Clips [enter, leave] to one slab.
@@ -87,12 +83,12 @@ PreparedRay prepare(const PrimaryRay& ray, const Box& box)
 /// Intersects the front of one sphere in double precision; the perpendicular form keeps its digits
 /// for an origin far away. False if the ray misses, or the front lies before the near or behind the
 /// far plane.
-bool intersectExactly(const PrimaryRay& ray, const Sphere& sphere, std::uint32_t id, Hit& hit)
+bool intersectExactly(const PrimaryRay& ray, const SphereSet& spheres, std::uint32_t id, Hit& hit)
 {
-  const Vec3d fromCenter = ray.origin - sphere.center().as<double>();
+  const Vec3d fromCenter = ray.origin - spheres.center(id);
   const double toNearest = -dot(fromCenter, ray.direction);
   const Vec3d nearest = fromCenter + toNearest * ray.direction;
-  const double radius = sphere.radius;
+  const double radius = spheres.spheres()[id].radius;
   const double squared = radius * radius - dot(nearest, nearest);
   if (!(squared >= 0))
   {
@@ -114,9 +110,10 @@ float justBehind(float t)
   return std::max(std::nextafter(t, InfinityF), std::numeric_limits<float>::min());
 }
 
-RTCRayHit makeRay(const PrimaryRay& ray, double start, float tnear)
+/// @param home origin of the brick that the ray is traced in
+RTCRayHit makeRay(const PrimaryRay& ray, double start, float tnear, Vec3d home)
 {
-  const Vec3f origin = (ray.origin + start * ray.direction).as<float>();
+  const Vec3f origin = (ray.origin + start * ray.direction - home).as<float>();
   RTCRayHit query;
   query.ray.org_x = origin.x;
   query.ray.org_y = origin.y;
@@ -161,28 +158,28 @@ void clear(TracedFrame& frame, int x0, int y0, int x1, int y1)
   }
 }
 
+/// Traces what one brick holds; of several bricks the nearest hit stays.
 class Tracer
 {
 public:
-  Tracer(const SphereScene& scene, const PrimaryRays& rays, TracedFrame& frame)
-    : scene_(scene)
+  Tracer(const SphereScene& scene, std::size_t brick, const PrimaryRays& rays, TracedFrame& frame)
+    : set_(scene.set())
+    , brick_(set_.bricks()[brick])
+    , handle_(scene.handle(brick))
     , rays_(rays)
     , frame_(frame)
-    , box_(boundsOf(scene))
+    , box_(boundsOf(brick_))
   {
   }
 
-  void traceTile(int tileX, int tileY, TraceCounters& counters) const
+  [[nodiscard]] bool mayShow(int x0, int y0, int x1, int y1) const
   {
-    const int x0 = tileX * TileSize, x1 = std::min(x0 + TileSize, frame_.width);
-    const int y0 = tileY * TileSize, y1 = std::min(y0 + TileSize, frame_.height);
-    ++counters.tiles;
-    clear(frame_, x0, y0, x1, y1);
-    if (!rays_.mayShowBox(box_.low, box_.high, x0, y0, x1, y1))
-    {
-      ++counters.tilesSkipped;
-      return;
-    }
+    return rays_.mayShowBox(box_.low, box_.high, x0, y0, x1, y1);
+  }
+
+  /// Pixels [x0, x1) x [y0, y1).
+  void traceTile(int x0, int y0, int x1, int y1, TraceCounters& counters) const
+  {
     for (int y = y0; y < y1; y += PacketSide)
     {
       for (int x = x0; x < x1; x += PacketSide)
@@ -218,21 +215,21 @@ private:
     counters.rays += active;
     RayQueryContext context;
     initRayQueryContext(context, true);
-    intersect16(valid, scene_.handle(), context, query);
+    intersect16(valid, handle_, context, query);
     for (int lane = 0; lane < PacketSize; ++lane)
     {
       if (valid[lane] != 0 && query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID)
       {
         const Hit hit =
-          settle(prepared[lane], query.hit.primID[lane], query.ray.tfar[lane], counters);
+          settle(prepared[lane], brick_.id(query.hit.primID[lane]), query.ray.tfar[lane], counters);
         store(x0 + lane % PacketSide, y0 + lane / PacketSide, prepared[lane].ray, hit, counters);
       }
     }
   }
 
-  static void fill(RTCRayHit16& query, int lane, const PreparedRay& prepared)
+  void fill(RTCRayHit16& query, int lane, const PreparedRay& prepared) const
   {
-    const RTCRayHit one = makeRay(prepared.ray, prepared.start, 0);
+    const RTCRayHit one = makeRay(prepared.ray, prepared.start, 0, brick_.origin);
     query.ray.org_x[lane] = one.ray.org_x;
     query.ray.org_y[lane] = one.ray.org_y;
     query.ray.org_z[lane] = one.ray.org_z;
@@ -253,7 +250,7 @@ private:
   Hit settle(const PreparedRay& prepared, unsigned id, float tfar, TraceCounters& counters) const
   {
     Hit hit = goOn(prepared.ray, prepared.start, id, tfar, counters);
-    const double radius = hit.sphere == SphereScene::None ? 0 : scene_.spheres()[hit.sphere].radius;
+    const double radius = hit.sphere == SphereScene::None ? 0 : set_.spheres()[hit.sphere].radius;
     const double way = hit.s - prepared.start;
     if (hit.sphere != SphereScene::None && way > ReliableRadii * radius)
     {
@@ -267,9 +264,10 @@ private:
 
   Hit traceFrom(const PrimaryRay& ray, double start, TraceCounters& counters) const
   {
-    RTCRayHit query = makeRay(ray, start, 0);
-    return findNext(query, counters) ? goOn(ray, start, query.hit.primID, query.ray.tfar, counters)
-                                     : Hit{};
+    RTCRayHit query = makeRay(ray, start, 0, brick_.origin);
+    return findNext(query, counters)
+      ? goOn(ray, start, brick_.id(query.hit.primID), query.ray.tfar, counters)
+      : Hit{};
   }
 
   /// Passes candidates that are no hit in truth: fronts before the near plane, grazed spheres.
@@ -277,18 +275,18 @@ private:
     const PrimaryRay& ray, double start, unsigned id, float tfar, TraceCounters& counters) const
   {
     Hit hit;
-    while (!intersectExactly(ray, scene_.spheres()[id], id, hit))
+    while (!intersectExactly(ray, set_, id, hit))
     {
-      if (start + tfar > ray.farthest + scene_.spheres()[id].radius)
+      if (start + tfar > ray.farthest + set_.spheres()[id].radius)
       {
         return {};
       }
-      RTCRayHit query = makeRay(ray, start, justBehind(tfar));
+      RTCRayHit query = makeRay(ray, start, justBehind(tfar), brick_.origin);
       if (!findNext(query, counters))
       {
         return {};
       }
-      id = query.hit.primID;
+      id = brick_.id(query.hit.primID);
       tfar = query.ray.tfar;
     }
     return hit;
@@ -299,30 +297,52 @@ private:
     ++counters.rays;
     RayQueryContext context;
     initRayQueryContext(context, false);
-    intersect1(scene_.handle(), context, query);
+    intersect1(handle_, context, query);
     return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
   }
 
   void store(int x, int y, const PrimaryRay& ray, const Hit& hit, TraceCounters& counters) const
   {
-    if (hit.sphere == SphereScene::None)
+    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) +
+      static_cast<std::size_t>(x);
+    const double t = hit.s * ray.worldPerLocal;
+    if (hit.sphere == SphereScene::None || !(t < frame_.t[pixel]))
     {
       return;
     }
-    ++counters.hits;
-    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) +
-      static_cast<std::size_t>(x);
-    frame_.t[pixel] = hit.s * ray.worldPerLocal;
+    counters.hits += frame_.sphere[pixel] == SphereScene::None;
+    frame_.t[pixel] = t;
     frame_.sphere[pixel] = hit.sphere;
     frame_.normal[pixel] = hit.normal.as<float>();
     frame_.windowDepth[pixel] = static_cast<float>(std::clamp(ray.windowDepth(hit.s), 0.0, 1.0));
   }
 
-  const SphereScene& scene_;
+  const SphereSet& set_;
+  const Brick& brick_;
+  RTCScene handle_;
   const PrimaryRays& rays_;
   TracedFrame& frame_;
   Box box_;
 };
+
+void traceTile(const std::vector<Tracer>& tracers, int tileX, int tileY, TracedFrame& frame,
+  TraceCounters& counters)
+{
+  const int x0 = tileX * TileSize, x1 = std::min(x0 + TileSize, frame.width);
+  const int y0 = tileY * TileSize, y1 = std::min(y0 + TileSize, frame.height);
+  clear(frame, x0, y0, x1, y1);
+  bool skipped = true;
+  for (const Tracer& tracer : tracers)
+  {
+    if (tracer.mayShow(x0, y0, x1, y1))
+    {
+      tracer.traceTile(x0, y0, x1, y1, counters);
+      skipped = false;
+    }
+  }
+  ++counters.tiles;
+  counters.tilesSkipped += skipped;
+}
 }
 
 TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, TracedFrame& frame)
@@ -333,7 +353,11 @@ TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, Trac
     clear(frame, 0, 0, frame.width, frame.height);
     return {};
   }
-  const Tracer tracer(scene, rays, frame);
+  std::vector<Tracer> tracers;
+  for (std::size_t brick = 0; brick < scene.set().bricks().size(); ++brick)
+  {
+    tracers.emplace_back(scene, brick, rays, frame);
+  }
   const int columns = (frame.width + TileSize - 1) / TileSize;
   const int rows = (frame.height + TileSize - 1) / TileSize;
   tbb::enumerable_thread_specific<TraceCounters> counters;
@@ -343,7 +367,7 @@ TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, Trac
       TraceCounters& mine = counters.local();
       for (int tile = tiles.begin(); tile < tiles.end(); ++tile)
       {
-        tracer.traceTile(tile % columns, tile / columns, mine);
+        traceTile(tracers, tile % columns, tile / columns, frame, mine);
       }
     });
   TraceCounters total;

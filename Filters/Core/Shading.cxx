@@ -192,7 +192,7 @@ bool isLit(const SphereScene& scene, const PrimaryRays& rays, const TracedFrame&
   {
     return false;
   }
-  const Sphere& sphere = scene.spheres()[frame.sphere[pixel]];
+  const Sphere sphere = scene.set().inBrick(frame.sphere[pixel]);
   const Vec3d origin = sphere.center().as<double>() + static_cast<double>(sphere.radius) * normal;
   const double localPerWorld = length(toLight);
   return !scene.occluded(origin.as<float>(), ((1 / localPerWorld) * toLight).as<float>(),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereCloud.h"
 
+#include "SphereSet.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -63,6 +65,26 @@ bool isWithin(Vec3d local, double margin)
 bool fitsFloat(Vec3d local, double radius)
 {
   return isWithin(local, radius) && radius > SmallestLocalRadius;
+}
+
+/// Is one frame of floats too coarse?
+bool isWide(const std::vector<Sphere>& spheres)
+{
+  return std::any_of(spheres.begin(), spheres.end(),
+    [](const Sphere& s)
+    {
+      const double reach = std::max({ std::abs(s.x), std::abs(s.y), std::abs(s.z) });
+      return reach > SphereSet::LargestBrick;
+    });
+}
+
+void addCenters(SphereCloud& cloud, const std::function<Vec3d(std::size_t)>& positionAt)
+{
+  cloud.centers.reserve(cloud.sourceIds.size());
+  for (const std::int64_t id : cloud.sourceIds)
+  {
+    cloud.centers.push_back(cloud.toLocal(positionAt(static_cast<std::size_t>(id))));
+  }
 }
 
 /// Chooses the middle and the mean radius of the usable particles; no sphere is made.
@@ -132,6 +154,10 @@ SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
     const Vec3f center = local.as<float>();
     cloud.spheres.push_back({ center.x, center.y, center.z, static_cast<float>(localRadius) });
     cloud.sourceIds.push_back(static_cast<std::int64_t>(i));
+  }
+  if (isWide(cloud.spheres))
+  {
+    addCenters(cloud, positionAt);
   }
   return cloud;
 }

@@ -29,12 +29,14 @@ struct RejectedParticles
 ///
 /// Float arithmetic loses the surface of a small sphere far from the origin, so positions are taken
 /// relative to the middle of the cloud (subtracted in double) and divided by the mean radius:
-/// local = (world - origin) / scale. All lengths that enter ray tracing are local.
+/// local = (world - origin) / scale. All lengths that enter ray tracing are local. In a cloud that
+/// is some thousand radii wide floats are too coarse all the same: see SphereSet.
 struct SphereCloud
 {
-  Vec3d origin;                        ///< world position of the local origin
-  double scale = 1;                    ///< world length of one local unit: the mean radius
-  std::vector<Sphere> spheres;         ///< the usable spheres, in input order, local
+  Vec3d origin;                ///< world position of the local origin
+  double scale = 1;            ///< world length of one local unit: the mean radius
+  std::vector<Sphere> spheres; ///< the usable spheres, in input order, local
+  std::vector<Vec3d> centers;  ///< theirs in full, local, where floats are too coarse; or empty
   std::vector<std::int64_t> sourceIds; ///< index of each sphere in the input
   RejectedParticles rejected;
 

@@ -34,17 +34,12 @@ bool sameView(const Camera& a, const Camera& b)
     a.height == b.height;
 }
 
-bool same(Vec3d a, Vec3d b)
-{
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 /// Do both lights reach the same points? Colours do not matter, nor how fast the light declines.
 bool sameReach(const Light& a, const Light& b)
 {
-  const bool sameCone = a.coneAngle == b.coneAngle && same(a.direction, b.direction);
+  const bool sameCone = a.coneAngle == b.coneAngle && a.direction == b.direction;
   return a.positional == b.positional &&
-    (a.positional ? sameCone && same(a.position, b.position) : same(a.direction, b.direction));
+    (a.positional ? sameCone && a.position == b.position : a.direction == b.direction);
 }
 
 Matrix4 localToModel(const SphereCloud& cloud)
@@ -66,7 +61,7 @@ void SphereRenderer::setCloud(SphereCloud cloud)
 void SphereRenderer::buildScene()
 {
   const Stopwatch watch(statistics_.buildSeconds);
-  scene_ = std::make_unique<SphereScene>(cloud_.spheres);
+  scene_ = std::make_unique<SphereScene>(SphereSet(cloud_.spheres, cloud_.centers));
 }
 
 bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)

@@ -16,6 +16,7 @@ namespace
 struct Place
 {
   int band;
+  std::size_t brick;
   std::uint64_t morton;
   unsigned source;
 
@@ -24,6 +25,10 @@ struct Place
     if (band != other.band)
     {
       return band < other.band;
+    }
+    if (brick != other.brick)
+    {
+      return brick < other.brick;
     }
     return morton != other.morton ? morton < other.morton : source < other.source;
   }
@@ -39,16 +44,17 @@ std::uint64_t spread(std::uint64_t bits)
   return (bits | bits << 2) & 0x1249249249249249u;
 }
 
-/// Maps positions to places along a Morton curve through their bounding box.
+/// Maps positions to places along a Morton curve through the bounding box of a brick.
 class MortonCurve
 {
 public:
-  explicit MortonCurve(const std::vector<Sphere>& spheres)
-    : low_(spheres.front().center())
+  explicit MortonCurve(const Brick& brick)
+    : low_(brick.spheres->center())
   {
     Vec3f high = low_;
-    for (const Sphere& s : spheres)
+    for (const Sphere* at = brick.spheres; at != brick.spheres + brick.count; ++at)
     {
+      const Sphere& s = *at;
       low_ = { std::min(low_.x, s.x), std::min(low_.y, s.y), std::min(low_.z, s.z) };
       high = { std::max(high.x, s.x), std::max(high.y, s.y), std::max(high.z, s.z) };
     }
@@ -96,8 +102,9 @@ std::array<int, 256> bandsOfOctaves(const std::array<std::size_t, 256>& counts)
   return bands;
 }
 
-std::vector<Place> sortedPlaces(const std::vector<Sphere>& spheres)
+std::vector<Place> sortedPlaces(const SphereSet& set)
 {
+  const std::vector<Sphere>& spheres = set.spheres();
   float largest = 0;
   for (const Sphere& s : spheres)
   {
@@ -109,25 +116,29 @@ std::vector<Place> sortedPlaces(const std::vector<Sphere>& spheres)
     ++counts[octaveOf(s.radius, largest)];
   }
   const std::array<int, 256> bands = bandsOfOctaves(counts);
-  const MortonCurve morton(spheres);
+  const std::vector<MortonCurve> curves(set.bricks().begin(), set.bricks().end());
   std::vector<Place> places(spheres.size());
   for (unsigned i = 0; i < places.size(); ++i)
   {
-    places[i] = { bands[octaveOf(spheres[i].radius, largest)], morton(spheres[i].center()), i };
+    const std::size_t brick = set.brickOf(i);
+    places[i] = { bands[octaveOf(spheres[i].radius, largest)], brick,
+      curves[brick](set.inBrick(i).center()), i };
   }
   tbb::parallel_sort(places.begin(), places.end());
   return places;
 }
 }
 
-SweepScene::SweepScene(const std::vector<Sphere>& spheres)
-  : indexOf_(spheres.size())
+SweepScene::SweepScene(const SphereSet& set)
+  : set_(set)
+  , indexOf_(set.size())
 {
+  const std::vector<Sphere>& spheres = set.spheres();
   if (spheres.empty())
   {
     return;
   }
-  const std::vector<Place> places = sortedPlaces(spheres);
+  const std::vector<Place> places = sortedPlaces(set);
   spheres_.reserve(places.size());
   source_.reserve(places.size());
   for (unsigned i = 0; i < places.size(); ++i)
@@ -136,9 +147,9 @@ SweepScene::SweepScene(const std::vector<Sphere>& spheres)
     spheres_.push_back(s);
     source_.push_back(places[i].source);
     indexOf_[places[i].source] = i;
-    if (i == 0 || places[i].band != places[i - 1].band)
+    if (i == 0 || places[i].band != places[i - 1].band || places[i].brick != places[i - 1].brick)
     {
-      bands_.push_back({ i, i, s.radius, s.radius });
+      bands_.push_back({ i, i, s.radius, s.radius, set.bricks()[places[i].brick].origin });
     }
     Band& band = bands_.back();
     band.last = i + 1;
