@@ -7,17 +7,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
 namespace po
 {
 namespace
 {
-/// Place of a sphere in the order; the source makes it unique.
+/// Place of a sphere in the order; equal spheres follow each other, and the source makes it unique.
 struct Place
 {
   int band;
   std::size_t brick;
   std::uint64_t morton;
+  const Sphere* sphere;
   unsigned source;
 
   bool operator<(const Place& other) const
@@ -30,7 +32,13 @@ struct Place
     {
       return brick < other.brick;
     }
-    return morton != other.morton ? morton < other.morton : source < other.source;
+    if (morton != other.morton)
+    {
+      return morton < other.morton;
+    }
+    const auto numbers = [](const Place& p)
+    { return std::tuple(p.sphere->x, p.sphere->y, p.sphere->z, p.sphere->radius, p.source); };
+    return numbers(*this) < numbers(other);
   }
 };
 
@@ -122,10 +130,18 @@ std::vector<Place> sortedPlaces(const SphereSet& set)
   {
     const std::size_t brick = set.brickOf(i);
     places[i] = { bands[octaveOf(spheres[i].radius, largest)], brick,
-      curves[brick](set.inBrick(i).center()), i };
+      curves[brick](set.inBrick(i).center()), &spheres[i], i };
   }
   tbb::parallel_sort(places.begin(), places.end());
   return places;
+}
+}
+
+namespace
+{
+bool areEqual(const SphereSet& set, unsigned a, unsigned b)
+{
+  return set.center(a) == set.center(b) && set.spheres()[a].radius == set.spheres()[b].radius;
 }
 }
 
@@ -144,15 +160,21 @@ SweepScene::SweepScene(const SphereSet& set)
   for (unsigned i = 0; i < places.size(); ++i)
   {
     const Sphere& s = spheres[places[i].source];
+    if (i > 0 && areEqual(set, places[i - 1].source, places[i].source))
+    {
+      indexOf_[places[i].source] = indexOf_[places[i - 1].source];
+      continue;
+    }
+    const auto index = static_cast<unsigned>(spheres_.size());
     spheres_.push_back(s);
     source_.push_back(places[i].source);
-    indexOf_[places[i].source] = i;
+    indexOf_[places[i].source] = index;
     if (i == 0 || places[i].band != places[i - 1].band || places[i].brick != places[i - 1].brick)
     {
-      bands_.push_back({ i, i, s.radius, s.radius, set.bricks()[places[i].brick].origin });
+      bands_.push_back({ index, index, s.radius, s.radius, set.bricks()[places[i].brick].origin });
     }
     Band& band = bands_.back();
-    band.last = i + 1;
+    band.last = index + 1;
     band.smallestRadius = std::min(band.smallestRadius, s.radius);
     band.largestRadius = std::max(band.largestRadius, s.radius);
   }

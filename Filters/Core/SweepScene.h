@@ -12,7 +12,9 @@ namespace po
 /// The spheres of a scene in the order in which a sweep works: sorted into bands of their radii,
 /// so that a few large ones do not make the tiles and cells of the many small ones large, and
 /// within a band along a Morton curve, so that spheres that are near in space are near in
-/// memory. Spheres of different bricks (see SphereSet) are in different bands.
+/// memory. Spheres of different bricks (see SphereSet) are in different bands. Of equal spheres at
+/// one place, which see the same, one stands for all: thousands of them would all look at each
+/// other.
 class SweepScene
 {
 public:
@@ -28,6 +30,7 @@ public:
   /// The set must outlive this.
   explicit SweepScene(const SphereSet& set);
 
+  /// Without repetitions.
   [[nodiscard]] std::size_t size() const { return spheres_.size(); }
   [[nodiscard]] const Sphere& sphere(unsigned index) const { return spheres_[index]; }
   /// In full, relative to the origin of the set.
