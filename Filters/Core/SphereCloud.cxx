@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace po
 {
@@ -18,16 +17,20 @@ constexpr double LargestLocalLength = 1e18;
 /// Radii below this square to zero in single precision.
 constexpr double SmallestLocalRadius = 1e-18;
 
+/// What the usable particles span.
 struct Extent
 {
   Vec3d low{ +HUGE_VAL, +HUGE_VAL, +HUGE_VAL };
   Vec3d high{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  double meanRadius = 0;
+  double smallest = HUGE_VAL; ///< radius
+  double largest = 0;
 
-  void include(Vec3d p)
+  void include(Vec3d p, double radius)
   {
     low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
     high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
+    smallest = std::min(smallest, radius);
+    largest = std::max(largest, radius);
   }
 
   /// Halves before adding, so that the sum of two huge coordinates stays finite.
@@ -87,29 +90,101 @@ void addCenters(SphereCloud& cloud, const std::function<Vec3d(std::size_t)>& pos
   }
 }
 
-/// Chooses the middle and the mean radius of the usable particles; no sphere is made.
-SphereCloud emptyCloudAround(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt)
+/// Calls use(position, radius) for all usable particles.
+template <typename Use>
+void forEachUsable(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
+  const std::function<double(std::size_t)>& radiusAt, const Use& use)
 {
-  SphereCloud cloud;
-  Extent extent;
   RejectedParticles ignored;
-  std::size_t accepted = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
     const Vec3d position = positionAt(i);
     const double radius = radiusAt(i);
     if (accept(position, radius, ignored))
     {
-      extent.include(position);
-      // A running mean, since a sum of radii could overflow.
-      extent.meanRadius += (radius - extent.meanRadius) / static_cast<double>(++accepted);
+      use(position, radius);
     }
   }
-  if (accepted > 0)
+}
+
+/// The mean of radii, as whole parts of the largest one: such a sum depends on no order, and cannot
+/// overflow.
+class RadiusMean
+{
+public:
+  explicit RadiusMean(double largest)
+    : largest_(largest)
   {
+  }
+  void add(double radius)
+  {
+    sum_ += static_cast<std::uint64_t>(std::llround(radius / largest_ * 0x1p32));
+    ++count_;
+  }
+  [[nodiscard]] double get() const
+  {
+    return static_cast<double>(sum_) * 0x1p-32 / static_cast<double>(count_) * largest_;
+  }
+
+private:
+  double largest_;
+  std::uint64_t sum_ = 0;
+  std::uint64_t count_ = 0;
+};
+
+double medianOf(std::vector<double>& values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Does all that was included fit floats relative to the frame of a cloud?
+bool fitsFrame(const SphereCloud& cloud, const Extent& extent)
+{
+  const double margin = extent.largest / cloud.scale;
+  return fitsFloat(cloud.toLocal(extent.low), margin) &&
+    fitsFloat(cloud.toLocal(extent.high), margin) &&
+    extent.smallest / cloud.scale > SmallestLocalRadius;
+}
+
+/// A frame that a few absurd particles cannot spoil for the others.
+void useMedians(SphereCloud& cloud, std::size_t count,
+  const std::function<Vec3d(std::size_t)>& positionAt,
+  const std::function<double(std::size_t)>& radiusAt)
+{
+  std::vector<double> x, y, z, radii;
+  forEachUsable(count, positionAt, radiusAt,
+    [&](Vec3d position, double radius)
+    {
+      x.push_back(position.x);
+      y.push_back(position.y);
+      z.push_back(position.z);
+      radii.push_back(radius);
+    });
+  cloud.origin = { medianOf(x), medianOf(y), medianOf(z) };
+  cloud.scale = medianOf(radii);
+}
+
+/// Chooses the middle and the mean radius of the usable particles, or, where some of them would not
+/// fit, the medians; no sphere is made.
+SphereCloud emptyCloudAround(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
+  const std::function<double(std::size_t)>& radiusAt)
+{
+  SphereCloud cloud;
+  Extent extent;
+  forEachUsable(count, positionAt, radiusAt,
+    [&](Vec3d position, double radius) { extent.include(position, radius); });
+  if (extent.largest > 0)
+  {
+    RadiusMean mean(extent.largest);
+    forEachUsable(count, positionAt, radiusAt, [&](Vec3d, double radius) { mean.add(radius); });
     cloud.origin = extent.middle();
-    cloud.scale = extent.meanRadius;
+    cloud.scale = mean.get();
+    if (!fitsFrame(cloud, extent))
+    {
+      useMedians(cloud, count, positionAt, radiusAt);
+    }
   }
   return cloud;
 }

@@ -28,7 +28,8 @@ struct RejectedParticles
 /// Spheres made ready for single-precision ray tracing.
 ///
 /// Float arithmetic loses the surface of a small sphere far from the origin, so positions are taken
-/// relative to the middle of the cloud (subtracted in double) and divided by the mean radius:
+/// relative to the middle of the cloud (subtracted in double) and divided by the mean radius (by
+/// the medians where otherwise some would be out of range, so that those alone are left out):
 /// local = (world - origin) / scale. All lengths that enter ray tracing are local. In a cloud that
 /// is some thousand radii wide floats are too coarse all the same: see SphereSet.
 struct SphereCloud
@@ -43,7 +44,12 @@ struct SphereCloud
   /// Is a point of these local coordinates near enough for ray tracing in floats?
   [[nodiscard]] static bool inRange(Vec3d local);
 
-  [[nodiscard]] Vec3d toLocal(Vec3d world) const { return (1.0 / scale) * (world - origin); }
+  /// Divides: the inverse of a denormal scale would be infinite.
+  [[nodiscard]] Vec3d toLocal(Vec3d world) const
+  {
+    const Vec3d d = world - origin;
+    return { d.x / scale, d.y / scale, d.z / scale };
+  }
   [[nodiscard]] Vec3d toWorld(Vec3d local) const { return origin + scale * local; }
 };
 
