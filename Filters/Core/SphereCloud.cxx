@@ -118,17 +118,20 @@ public:
   }
   void add(double radius)
   {
-    sum_ += static_cast<std::uint64_t>(std::llround(radius / largest_ * 0x1p32));
+    const auto parts = static_cast<std::uint64_t>(std::llround(radius / largest_ * 0x1p52));
+    high_ += parts >> 26;
+    low_ += parts & ((1u << 26) - 1);
     ++count_;
   }
   [[nodiscard]] double get() const
   {
-    return static_cast<double>(sum_) * 0x1p-32 / static_cast<double>(count_) * largest_;
+    const double sum = static_cast<double>(high_) * 0x1p26 + static_cast<double>(low_);
+    return sum * 0x1p-52 / static_cast<double>(count_) * largest_;
   }
 
 private:
   double largest_;
-  std::uint64_t sum_ = 0;
+  std::uint64_t high_ = 0, low_ = 0; ///< the sum: 26 bits of each radius, exactly
   std::uint64_t count_ = 0;
 };
 
