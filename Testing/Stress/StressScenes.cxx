@@ -183,6 +183,24 @@ Scene onePoint()
   return make("all at one point", std::move(balls));
 }
 
+/// Thousands of balls, most of which see nothing, and some through gaps only: what can be skipped
+/// is. Watched are those of the first three layers at a corner, an edge and the middle of a side.
+Scene solid()
+{
+  Scene scene = make("solid of 4096", lattice(16, 1.9));
+  scene.watched.clear();
+  const auto watch = [&](std::size_t x, std::size_t y, std::size_t z)
+  { scene.watched.push_back(x + 16 * (y + 16 * z)); };
+  for (const std::size_t layer : { 0, 1, 2 })
+  {
+    watch(layer, layer, layer);
+    watch(7, layer, layer);
+    watch(8, 7, layer);
+    watch(15 - layer, 9, 6);
+  }
+  return scene;
+}
+
 /// Contacts at both poles, on the axes and at the seam of the texture.
 Scene axes()
 {
@@ -269,6 +287,26 @@ Scene longChain()
 }
 }
 
+Scene layers()
+{
+  constexpr int side = 100;
+  constexpr double spacing = 1.3;
+  Numbers numbers(101);
+  Scene scene{ "layers of 40000", {}, {}, {}, 1 };
+  for (int i = 0; i < 4 * side * side; ++i)
+  {
+    const double x = spacing * (i % side - side / 2.0);
+    const double y = spacing * (i / side % side - side / 2.0);
+    const double z = spacing * (i / side / side) + numbers.between(-0.4, 0.4);
+    scene.balls.push_back({ { x, y, z }, 1 });
+  }
+  for (std::size_t k = 0; k < MostWatched; ++k)
+  {
+    scene.watched.push_back((k % 3 == 0 ? 2 : 3) * side * side + (44 + k) * side + 46 + k % 5);
+  }
+  return scene;
+}
+
 std::vector<Scene> scenes()
 {
   std::vector<Scene> all;
@@ -290,6 +328,7 @@ std::vector<Scene> scenes()
   all.push_back(chain());
   all.push_back(line());
   all.push_back(plane());
+  all.push_back(solid());
   all.push_back(onePoint());
   all.push_back(axes());
   all.push_back(grazing());

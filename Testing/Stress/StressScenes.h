@@ -26,6 +26,10 @@ struct Scene
 /// All scenes; their number and order are fixed.
 [[nodiscard]] std::vector<Scene> scenes();
 
+/// An uneven layer over others without a gap, 40,000 balls in all, so wide that whole tiles of a
+/// sweep are closed by its top. It is none of the above, for its size.
+[[nodiscard]] Scene layers();
+
 /// Where a scene is put, and in which unit.
 struct Placement
 {

@@ -43,8 +43,9 @@ struct Trial
   double distance;
 };
 constexpr Trial Trials[] = { { "cloud", 0 }, { "touching", 0 }, { "overlap 0.1 r", 0 },
-  { "overlap 0.9 r", 0 }, { "plane", 0 }, { "grazing", 0 }, { "radii 1 : 1,000,000", 0 },
-  { "two clouds, 1e9 radii apart", 0 }, { "cloud", 0.6 }, { "touching", 3 } };
+  { "overlap 0.9 r", 0 }, { "plane", 0 }, { "solid of 4096", 0 }, { "grazing", 0 },
+  { "radii 1 : 1,000,000", 0 }, { "two clouds, 1e9 radii apart", 0 }, { "cloud", 0.6 },
+  { "touching", 3 } };
 
 class Unbiased : public testing::TestWithParam<Method>
 {
@@ -94,6 +95,18 @@ TEST_P(Unbiased, TexelByTexelOverSeeds)
         sidakBound(std::size(Trials), 1e-3) * outcome.biasError);
     EXPECT_EQ(outcome.selfHits, 0u);
   }
+}
+
+TEST(StressStatistics, WholeTilesAreClosedWithoutBias)
+{
+  constexpr int seeds = 4;
+  const Scene scene = layers();
+  const Judgement judgement = judgeOf(scene.balls, scene.watched, 4096);
+  const Baked mean = meanOverSeeds(scene, Method::Sweep, 144, seeds, 0);
+  const Outcome outcome =
+    compare(scene, judgement, mean, independentRays(Method::Sweep, seeds * 144));
+  EXPECT_LT(outcome.worstZ, sidakBound(outcome.texels, 1e-3));
+  EXPECT_LT(std::abs(outcome.bias), 0.001 + 4 * outcome.biasError);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Unbiased, testing::ValuesIn(Methods),
