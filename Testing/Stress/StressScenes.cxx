@@ -201,6 +201,20 @@ Scene solid()
   return scene;
 }
 
+/// Balls that overlap as the atoms of a molecule do; watched are those at the top.
+Scene dense()
+{
+  Scene scene{ "dense cloud of 2000", cloud(2000, 8, 121), {}, {}, 1 };
+  for (std::size_t i = 0; i < scene.balls.size() && scene.watched.size() < MostWatched; ++i)
+  {
+    if (scene.balls[i].center.z + scene.balls[i].radius > 8.2)
+    {
+      scene.watched.push_back(i);
+    }
+  }
+  return scene;
+}
+
 /// Contacts at both poles, on the axes and at the seam of the texture.
 Scene axes()
 {
@@ -269,6 +283,20 @@ Scene apart(const std::string& name, double extent, bool stray)
   return make(name, std::move(balls));
 }
 
+/// A large ball that takes a ninth of the sky from two clouds of small ones, 15,000 of their radii
+/// away: more than one frame of floats spans.
+Scene shade()
+{
+  Numbers numbers(111);
+  std::vector<Ball> balls{ { {}, 5000 } };
+  for (int i = 0; i < 5000; ++i)
+  {
+    const Vec3d middle{ i % 2 == 0 ? 15000.0 : -15000.0, 0, 0 };
+    balls.push_back({ middle + numbers.inCube(60), 1 });
+  }
+  return make("a ball shades far clouds", std::move(balls));
+}
+
 /// Short chains along a line a million radii long.
 Scene longChain()
 {
@@ -329,11 +357,13 @@ std::vector<Scene> scenes()
   all.push_back(line());
   all.push_back(plane());
   all.push_back(solid());
+  all.push_back(dense());
   all.push_back(onePoint());
   all.push_back(axes());
   all.push_back(grazing());
   all.push_back(sealed());
   all.push_back(ratio());
+  all.push_back(shade());
   all.push_back(longChain());
   all.push_back(apart("two clouds, 1e6 radii apart", 1e6, false));
   all.push_back(apart("two clouds, 1e9 radii apart", 1e9, false));
