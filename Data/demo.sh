@@ -4,6 +4,7 @@
 # shipped particle data into demo-output/.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../Testing/setup.sh"
+configure_and_build default
 
 cd "$source_dir"
 results=({direct,ambient-occlusion,combined,silhouettes}.png layers.exr baked.vtp state.pvsm)

@@ -18,13 +18,33 @@ namespace po
 {
 namespace
 {
+/// Where some blocks mark duplicate points all must, or the marks are lost when they are appended.
+void ensureGhostArray(vtkPolyData& block)
+{
+  if (!block.GetPointGhostArray())
+  {
+    vtkNew<vtkUnsignedCharArray> none;
+    none->SetName(vtkDataSetAttributes::GhostArrayName());
+    none->SetNumberOfTuples(block.GetNumberOfPoints());
+    none->Fill(0);
+    block.GetPointData()->AddArray(none);
+  }
+}
+
 vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPolyData*>& blocks)
 {
+  const bool anyGhosts = std::any_of(blocks.begin(), blocks.end(),
+    [](vtkPolyData* block) { return block->GetPointGhostArray() != nullptr; });
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   for (vtkPolyData* block : blocks)
   {
-    append->AddInputData(withoutCells(*block));
+    const vtkSmartPointer<vtkPolyData> points = withoutCells(*block);
+    if (anyGhosts)
+    {
+      ensureGhostArray(*points);
+    }
+    append->AddInputData(points);
   }
   append->Update();
   return append->GetOutput();
@@ -131,6 +151,10 @@ void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offs
 
 std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
 {
+  if (auto* particles = vtkPolyData::SafeDownCast(data))
+  {
+    return { particles };
+  }
   std::vector<vtkPolyData*> blocks;
   for (vtkDataSet* block : blocksWithPoints(data))
   {
@@ -143,15 +167,16 @@ std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
 }
 
 std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
-  const RadiusSettings& settings, std::string& error, const SphereCloud* frame)
+  const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
+  const ProcessGroup& group)
 {
   if (blocks.size() == 1)
   {
-    return readSphereCloud(*blocks.front(), settings, error, frame);
+    return readSphereCloud(*blocks.front(), settings, error, frame, group);
   }
   const vtkSmartPointer<vtkPolyData> all =
     blocks.empty() ? vtkSmartPointer<vtkPolyData>::New() : appendBlocks(blocks);
-  return readSphereCloud(*all, settings, error, frame);
+  return readSphereCloud(*all, settings, error, frame, group);
 }
 
 void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,

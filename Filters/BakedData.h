@@ -19,18 +19,19 @@ class vtkPolyData;
 
 namespace po
 {
-/// The poly data blocks of `data` that have points: the data set itself, or the leaves of a
-/// composite one.
+/// The poly data to bake: the data set itself, or the leaves of a composite one that have points.
 [[nodiscard]] std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data);
 
 /// One cloud of the particles of all blocks; sourceIds count through the blocks in order.
-/// Nothing, and a message in `error`, under the conditions of readSphereCloud. With `frame` the
-/// spheres are put into the local coordinates of that cloud.
+/// Nothing, and a message in `error`, under the conditions of readSphereCloud, which says what
+/// `frame` and `group` are.
 [[nodiscard]] std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
-  const RadiusSettings& settings, std::string& error, const SphereCloud* frame = nullptr);
+  const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
+  const ProcessGroup& group);
 
 /// Adds the arrays of the data contract to each block. A block gets the rows of the table that its
 /// particles use; particles that were left out get row -1 and visibility 0.
+/// @param result in the order of the cloud's spheres
 void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,
   const BakeResult& result, const OcclusionParameters& parameters);
 }

@@ -17,8 +17,6 @@
 #include <cmath>
 #include <optional>
 
-namespace Imf = OPENEXR_IMF_NAMESPACE;
-
 namespace po
 {
 namespace

@@ -11,8 +11,6 @@
 
 #include <set>
 
-namespace Imf = OPENEXR_IMF_NAMESPACE;
-
 namespace po
 {
 namespace

@@ -171,30 +171,31 @@ private:
 };
 
 void readSpheres(const std::vector<vtkPolyData*>& blocks, const RadiusSettings& radii,
-  const SphereCloud& particles, OccluderInput& input)
+  const SphereCloud& particles, const ProcessGroup& group, OccluderInput& input)
 {
   std::string error;
-  std::optional<SphereCloud> cloud = readBlocks(blocks, radii, error, &particles);
+  std::optional<SphereCloud> cloud = readBlocks(blocks, radii, error, &particles, group);
   if (!cloud)
   {
     throw std::invalid_argument(PortName + error);
   }
-  if (cloud->rejected.total() > 0)
+  const RejectedParticles rejected = cloud->rejected.summed(group);
+  if (rejected.total() > 0)
   {
-    input.warnings.push_back(PortName + describe(cloud->rejected));
+    input.warnings.push_back(PortName + describe(rejected));
   }
   input.occluders.spheres = std::move(cloud->spheres);
   input.occluders.centers = std::move(cloud->centers);
 }
 }
 
-OccluderInput readOccluders(
-  vtkDataObject* data, const RadiusSettings& radii, const SphereCloud& particles)
+OccluderInput readOccluders(vtkDataObject* data, const RadiusSettings& radii,
+  const SphereCloud& particles, const ProcessGroup& group)
 {
   OccluderInput input;
   MeshReader meshes(particles, input.occluders.mesh);
   std::vector<vtkPolyData*> sphereBlocks;
-  std::size_t linesAlone = 0;
+  std::uint64_t linesAlone = 0;
   for (vtkPolyData* block : occluderBlocks(data))
   {
     if (isMesh(*block))
@@ -210,20 +211,22 @@ OccluderInput readOccluders(
       sphereBlocks.push_back(block);
     }
   }
-  if (meshes.skipped() > 0)
+  const std::uint64_t skipped = group.sum(std::uint64_t(meshes.skipped()));
+  if (skipped > 0)
   {
-    input.warnings.push_back(PortName + std::to_string(meshes.skipped()) +
+    input.warnings.push_back(PortName + std::to_string(skipped) +
       " triangles are left out: with a corner that is NaN, infinite or out of proportion to the "
       "mean radius, or of a polygon that cannot be cut into triangles.");
   }
+  linesAlone = group.sum(linesAlone);
   if (linesAlone > 0)
   {
     input.warnings.push_back(PortName + std::to_string(linesAlone) +
       " data sets of lines are left out: make tubes of them before.");
   }
-  if (!sphereBlocks.empty())
+  if (group.any(!sphereBlocks.empty()))
   {
-    readSpheres(sphereBlocks, radii, particles, input);
+    readSpheres(sphereBlocks, radii, particles, group, input);
   }
   return input;
 }

@@ -25,12 +25,13 @@ struct OccluderInput
 ///
 /// A block with polygons or strips is a mesh, of which only these cells count. The points of all
 /// other blocks are spheres, with radii as in readBlocks; blocks that have lines alone are left
-/// out. All lengths come out in the local coordinates of `particles`.
+/// out. All lengths come out in the local coordinates of `particles`. Each process of the group
+/// reads its own; warnings, and what is asked of a radius array, are of all together.
 ///
 /// Throws std::invalid_argument, with a message that names the port, for data of another type and
 /// under the conditions of readSphereCloud.
-[[nodiscard]] OccluderInput readOccluders(
-  vtkDataObject* data, const RadiusSettings& radii, const SphereCloud& particles);
+[[nodiscard]] OccluderInput readOccluders(vtkDataObject* data, const RadiusSettings& radii,
+  const SphereCloud& particles, const ProcessGroup& group);
 }
 
 #endif

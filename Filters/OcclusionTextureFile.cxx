@@ -24,7 +24,6 @@
 #include <optional>
 #include <vector>
 
-namespace Imf = OPENEXR_IMF_NAMESPACE;
 using IMATH_NAMESPACE::V2i;
 
 namespace po

@@ -1,29 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereInput.h"
 
+#include "RadiusEstimate.h"
+
 #include "vtkDataArray.h"
-#include "vtkIdList.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkPoints.h"
-#include "vtkPolyData.h"
-#include "vtkStaticPointLocator.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
-#include <random>
 #include <sstream>
-#include <vector>
 
 namespace po
 {
 namespace
 {
-/// The median of this many distances is known to a few percent; more would only cost time.
-constexpr std::size_t SpacingSamples = 1000;
+constexpr std::array<const char*, 5> DefaultRadiusArrays = { "radius", "Radius", "rad", "r",
+  "diameter" };
 
 /// Radius of a particle in world units, before scaling.
 using RadiusFunction = std::function<double(std::size_t)>;
@@ -102,18 +99,6 @@ bool checkRange(const RadiusSettings& settings, std::string& error)
   return error.empty();
 }
 
-RadiusFunction constantRadii(vtkPointSet& points, double constant, std::string& error)
-{
-  const double radius = constant > 0 ? constant : estimateRadius(points);
-  if (!(radius > 0))
-  {
-    error = "No radius can be estimated from the spacing, since there are no two distinct finite "
-            "points: choose a RadiusArray or set ConstantRadius.";
-    return {};
-  }
-  return [radius](std::size_t) { return radius; };
-}
-
 RadiusFunction arrayRadii(vtkPointSet& points, const std::string& name, std::string& error)
 {
   vtkDataArray* radii = findRadii(points, name, error);
@@ -126,103 +111,69 @@ RadiusFunction arrayRadii(vtkPointSet& points, const std::string& name, std::str
   { return factor * radii->GetComponent(static_cast<vtkIdType>(i), 0); };
 }
 
-RadiusFunction chooseRadii(vtkPointSet& points, const RadiusSettings& settings, std::string& error)
+/// @param settings as resolveRadii gives them
+RadiusFunction radiusFunction(
+  vtkPointSet& points, const RadiusSettings& settings, std::string& error)
 {
-  const bool automatic = settings.array.empty() || settings.array == RadiusSettings::Automatic;
-  const std::string name = automatic ? defaultRadiusArray(*points.GetPointData()) : settings.array;
-  return name.empty() || name == RadiusSettings::NoArray
-    ? constantRadii(points, settings.constant, error)
-    : arrayRadii(points, name, error);
+  if (settings.array != RadiusSettings::NoArray)
+  {
+    return arrayRadii(points, settings.array, error);
+  }
+  if (!(settings.constant > 0))
+  {
+    error = "No radius can be estimated from the spacing, since there are no two distinct finite "
+            "points: choose a RadiusArray or set ConstantRadius.";
+    return {};
+  }
+  return [radius = settings.constant](std::size_t) { return radius; };
 }
 
-/// A locator cannot bin points that are not finite.
-void copyFinitePoints(vtkPointSet& points, vtkPoints* finite)
+/// The first default array that no process with points lacks, or NoArray.
+std::string defaultRadiusArray(vtkPointSet& points, const ProcessGroup& group)
 {
-  finite->SetDataTypeToDouble();
-  const auto count = static_cast<std::size_t>(points.GetNumberOfPoints());
-  for (std::size_t i = 0; i < count; ++i)
+  std::uint64_t missing = 0;
+  for (std::size_t i = 0; i < DefaultRadiusArrays.size(); ++i)
   {
-    const Vec3d p = pointAt(points, i);
-    if (isFinite(p))
+    const bool lacks =
+      points.GetNumberOfPoints() > 0 && !points.GetPointData()->HasArray(DefaultRadiusArrays[i]);
+    missing |= std::uint64_t(lacks) << i;
+  }
+  for (const std::uint64_t missingElsewhere : group.gather({ missing }))
+  {
+    missing |= missingElsewhere;
+  }
+  for (std::size_t i = 0; i < DefaultRadiusArrays.size(); ++i)
+  {
+    if ((missing >> i & 1) == 0)
     {
-      finite->InsertNextPoint(&p.x);
+      return DefaultRadiusArrays[i];
     }
   }
+  return RadiusSettings::NoArray;
+}
 }
 
-/// Distance to the nearest point elsewhere; 0 if the nearest few all lie at the same place.
-double nearestDistance(vtkStaticPointLocator* locator, vtkPoints* points, vtkIdType id)
+RadiusSettings resolveRadii(
+  vtkPointSet& points, const RadiusSettings& settings, const ProcessGroup& group)
 {
-  constexpr int Neighbors = 4; // the point itself, and some that may coincide with it
-  Vec3d p;
-  points->GetPoint(id, &p.x);
-  vtkNew<vtkIdList> neighbors;
-  locator->FindClosestNPoints(Neighbors, &p.x, neighbors);
-  double nearest = HUGE_VAL;
-  for (const vtkIdType neighbor : *neighbors)
+  RadiusSettings resolved = settings;
+  if (settings.array.empty() || settings.array == RadiusSettings::Automatic)
   {
-    Vec3d q;
-    points->GetPoint(neighbor, &q.x);
-    const double distance = length(q - p);
-    nearest = distance > 0 ? std::min(nearest, distance) : nearest;
+    resolved.array = defaultRadiusArray(points, group);
   }
-  return std::isfinite(nearest) ? nearest : 0;
-}
+  if (resolved.array == RadiusSettings::NoArray && settings.constant == 0)
+  {
+    resolved.constant = estimateRadius(points, group);
+  }
+  return resolved;
 }
 
-std::string defaultRadiusArray(vtkPointData& data)
-{
-  for (const char* name : { "radius", "Radius", "rad", "r", "diameter" })
-  {
-    if (data.HasArray(name))
-    {
-      return name;
-    }
-  }
-  return {};
-}
-
-double estimateRadius(vtkPointSet& points)
-{
-  vtkNew<vtkPoints> finite;
-  copyFinitePoints(points, finite);
-  const auto count = static_cast<std::size_t>(finite->GetNumberOfPoints());
-  if (count < 2)
-  {
-    return 0;
-  }
-  vtkNew<vtkPolyData> cloud;
-  cloud->SetPoints(finite);
-  vtkNew<vtkStaticPointLocator> locator;
-  locator->SetDataSet(cloud);
-  locator->BuildLocator();
-
-  std::mt19937_64 random; // the standard's fixed seed: the same radius every time
-  std::vector<double> distances;
-  for (std::size_t k = 0; k < std::min(count, SpacingSamples); ++k)
-  {
-    const std::size_t id = count <= SpacingSamples ? k : random() % count;
-    const double distance = nearestDistance(locator, finite, static_cast<vtkIdType>(id));
-    if (distance > 0)
-    {
-      distances.push_back(distance);
-    }
-  }
-  if (distances.empty())
-  {
-    return 0;
-  }
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return 0.5 * *middle;
-}
-
-std::optional<SphereCloud> readSphereCloud(
-  vtkPointSet& points, const RadiusSettings& settings, std::string& error, const SphereCloud* frame)
+std::optional<SphereCloud> readSphereCloud(vtkPointSet& points, const RadiusSettings& settings,
+  std::string& error, const SphereCloud* frame, const ProcessGroup& group)
 {
   error.clear();
   const auto count = static_cast<std::size_t>(points.GetNumberOfPoints());
-  if (count == 0)
+  if (group.sum(std::uint64_t(count)) == 0)
   {
     error = "The input has no points: there are no particles.";
     return std::nullopt;
@@ -231,18 +182,28 @@ std::optional<SphereCloud> readSphereCloud(
   {
     return std::nullopt;
   }
-  const RadiusFunction radiusAt = chooseRadii(points, settings, error);
+  const RadiusSettings resolved = resolveRadii(points, settings, group);
+  // The arrays of a process without points do not matter.
+  const RadiusFunction radiusAt =
+    count > 0 ? radiusFunction(points, resolved, error) : [](std::size_t) { return 0.0; };
   if (!radiusAt)
   {
     return std::nullopt;
   }
-  const auto positionAt = [&points](std::size_t i) { return pointAt(points, i); };
-  const auto scaledRadiusAt = [&](std::size_t i) { return settings.scale * radiusAt(i); };
-  SphereCloud cloud = frame ? makeSphereCloudLike(*frame, count, positionAt, scaledRadiusAt)
-                            : makeSphereCloud(count, positionAt, scaledRadiusAt);
-  if (cloud.spheres.empty())
+  ParticleSource source{ count, [&points](std::size_t i) { return pointAt(points, i); },
+    [&](std::size_t i) { return settings.scale * radiusAt(i); }, {} };
+  if (vtkUnsignedCharArray* ghosts = points.GetPointGhostArray())
   {
-    error = "No particle is usable. " + describe(cloud.rejected);
+    source.isGhost = [ghosts](std::size_t i)
+    {
+      return (ghosts->GetValue(static_cast<vtkIdType>(i)) & vtkDataSetAttributes::DUPLICATEPOINT) !=
+        0;
+    };
+  }
+  SphereCloud cloud = frame ? makeSphereCloudLike(*frame, source) : makeSphereCloud(source, group);
+  if (group.sum(std::uint64_t(cloud.spheres.size())) == 0)
+  {
+    error = "No particle is usable. " + describe(cloud.rejected.summed(group));
     return std::nullopt;
   }
   return cloud;

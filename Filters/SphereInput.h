@@ -6,6 +6,7 @@
 // mapper share these functions, so that both see the same particles.
 
 #include "ParticleOcclusionFiltersModule.h"
+#include "ProcessGroup.h"
 #include "SphereCloud.h"
 
 #include <optional>
@@ -36,24 +37,26 @@ struct RadiusSettings
   double constant = 0;
 };
 
-/// The first of the arrays radius, Radius, rad, r, diameter that exists, or an empty string.
-[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::string defaultRadiusArray(vtkPointData& data);
+/// What the settings come to for all points of the group: the name of an array that every process
+/// with points has, or NoArray and a constant radius. Automatic is the first of the arrays radius,
+/// Radius, rad, r, diameter that all have. A constant of 0 is replaced by estimateRadius of all
+/// points, and stays 0 where that finds none.
+[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT RadiusSettings resolveRadii(
+  vtkPointSet& points, const RadiusSettings& settings, const ProcessGroup& group);
 
-/// Half the median distance of a particle to its nearest neighbour, taken over a fixed subset: the
-/// radius at which most particles of an even packing just touch. 0 where no two distinct finite
-/// points exist.
-[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT double estimateRadius(vtkPointSet& points);
-
-/// The usable particles of `points` as spheres; sourceIds are point ids.
+/// The usable particles of `points` as spheres; sourceIds are point ids, ghosts the duplicate
+/// points of vtkGhostType.
 ///
 /// Nothing is returned, and `error` says which array or parameter is wrong and what to do, if there
 /// are no points, the array is missing, not numeric, of the wrong length or number of components, a
-/// parameter is out of range, no radius can be estimated, or no particle at all is usable.
-/// Particles that are left out are counted in SphereCloud::rejected. With `frame` the spheres are
-/// put into the local coordinates of that cloud.
+/// parameter is out of range, no radius can be estimated, or no particle at all is usable: both of
+/// all processes together. Particles that are left out are counted in SphereCloud::rejected.
+/// @param frame the spheres are put into the local coordinates of that cloud, or, if null, into
+/// those of all particles of the group
+/// @param group the processes whose particles make up one set; all must call
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::optional<SphereCloud> readSphereCloud(
   vtkPointSet& points, const RadiusSettings& settings, std::string& error,
-  const SphereCloud* frame = nullptr);
+  const SphereCloud* frame = nullptr, const ProcessGroup& group = ProcessGroup::alone());
 
 /// One sentence on the particles that were left out and why; empty if there are none.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::string describe(

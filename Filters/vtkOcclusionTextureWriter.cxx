@@ -15,6 +15,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkOcclusionTextureWriter);
@@ -185,6 +186,12 @@ void vtkOcclusionTextureWriter::WriteData()
       texture(row, texels);
     };
     po::writeOcclusionTextures(this->FileName, source);
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+    vtkErrorMacro("Not enough memory to write the textures to \""
+      << this->FileName << "\"; close other data. Nothing was changed on disk.");
   }
   catch (const std::exception& error)
   {

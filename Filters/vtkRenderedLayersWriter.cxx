@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkRenderedLayersWriter);
@@ -237,6 +238,12 @@ void vtkRenderedLayersWriter::WriteData()
       vtkWarningMacro(
         "Left out, since they are neither floats nor \"id\" nor \"RGBA\": " << leftOut);
     }
+  }
+  catch (const std::bad_alloc&)
+  {
+    this->SetErrorCode(vtkErrorCode::UnknownError);
+    vtkErrorMacro("Not enough memory to write the layers to \""
+      << this->FileName << "\"; close other data. Nothing was changed on disk.");
   }
   catch (const std::exception& error)
   {

@@ -1,92 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSphereAmbientOcclusion.h"
 
+#include "BakeMethods.h"
+#include "BakeParameters.h"
 #include "BakedData.h"
-#include "EmbreeEstimator.h"
-#include "ErrorPilot.h"
-#include "ExrBackground.h"
+#include "ControllerGroup.h"
 #include "OccluderInput.h"
-#include "ReferenceEstimator.h"
-#include "SweepEstimator.h"
+#include "SharedSpheres.h"
 
 #include "vtkDataObject.h"
+#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <vtksys/SystemInformation.hxx>
-
+#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <new>
-#include <sstream>
+#include <limits>
 #include <stdexcept>
 
 vtkStandardNewMacro(vtkSphereAmbientOcclusion);
 
 namespace
 {
-/// Version of the layout that AmbientOcclusionParameters describes.
-constexpr int ContractVersion = 1;
-
-constexpr const char* MethodNames[] = { "Automatic", "Sweep", "Embree", "Reference" };
-constexpr const char* BackgroundNames[] = { "Uniform", "Gradient", "Image" };
-constexpr const char* EncodingNames[] = { po::UInt8Gamma2, po::Float32Linear };
-
-/// A parameter that is out of its range: throws a message that says the range.
-template <typename T>
-void requireRange(const char* name, T value, T low, T high)
-{
-  if (!(value >= low && value <= high))
-  {
-    std::ostringstream message;
-    message << name << " must be between " << low << " and " << high << ", but is " << value << ".";
-    throw std::invalid_argument(message.str());
-  }
-}
-
-void requireNotNegative(const char* name, double value, const char* zeroMeans = "")
-{
-  if (!(value >= 0) || !std::isfinite(value))
-  {
-    std::ostringstream message;
-    message << name << " must be a number of at least 0" << zeroMeans << ", but is " << value
-            << ".";
-    throw std::invalid_argument(message.str());
-  }
-}
-
-std::string inGigabytes(double bytes)
-{
-  std::ostringstream text;
-  text.precision(3);
-  text << bytes / (1024.0 * 1024.0 * 1024.0) << " GiB";
-  return text.str();
-}
-
-double freeMemory()
-{
-  vtksys::SystemInformation system;
-  const double kibibytes = static_cast<double>(system.GetHostMemoryAvailable(nullptr)) -
-    static_cast<double>(system.GetHostMemoryUsed());
-  return 1024.0 * std::max(kibibytes, 0.0);
-}
-
-/// Says beforehand what would otherwise end in swapping or in a killed process.
-void requireMemory(double needed, std::size_t particles)
-{
-  const double available = freeMemory();
-  if (needed > available)
-  {
-    throw std::runtime_error("Baking " + std::to_string(particles) + " particles needs up to " +
-      inGigabytes(needed) + " of memory, but " + inGigabytes(available) +
-      " are free: lower TextureResolution, choose the Method Embree or the Encoding "
-      "UInt8Gamma2, or bake fewer particles.");
-  }
-}
-
 /// Reports to the user interface, which may stop the bake.
 po::Progress::Report reportTo(vtkAlgorithm* algorithm)
 {
@@ -97,305 +35,181 @@ po::Progress::Report reportTo(vtkAlgorithm* algorithm)
   };
 }
 
-double sceneMemory(const po::SphereCloud& cloud, const po::Occluders& occluders,
-  const po::BakeSettings& settings, const po::OcclusionEstimator& estimator)
+std::vector<unsigned> distinct(std::vector<unsigned> numbers)
 {
-  return po::bakeMemory(cloud.spheres.size(), settings, estimator) + po::occluderMemory(occluders);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
 }
 
-/// Sweep is the fastest one for whole sets, wherever its memory is there, but knows spheres only.
-int chooseMethod(int method, const po::SphereCloud& cloud, const po::Occluders& occluders,
-  const po::BakeSettings& settings, const po::SweepOptions& sweep)
+/// From the order of `receivers`, which is ascending, to that of `places`.
+po::BakeResult inOrderOf(const std::vector<unsigned>& places,
+  const std::vector<unsigned>& receivers, po::BakeResult result)
 {
-  const bool triangles = !occluders.mesh.triangles.empty();
-  if (method == vtkSphereAmbientOcclusion::Sweep && triangles)
+  const std::vector<std::int32_t> rows = std::move(result.rowOf);
+  const std::vector<float> means = std::move(result.mean);
+  result.rowOf.clear();
+  result.mean.clear();
+  for (const unsigned place : places)
   {
-    throw std::invalid_argument("Method Sweep does not see the triangles of the input Occluders: "
-                                "choose the Method Automatic or Embree.");
+    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), place);
+    const auto index = static_cast<std::size_t>(receiver - receivers.begin());
+    result.rowOf.push_back(rows[index]);
+    result.mean.push_back(means[index]);
   }
-  if (method != vtkSphereAmbientOcclusion::Automatic)
-  {
-    return method;
-  }
-  // Within about two radii the near spheres, which Embree's method tests without rays, are all
-  // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
-  const bool close = settings.maximumDistance > 0 && settings.maximumDistance <= 2 * cloud.scale;
-  const bool fits =
-    sceneMemory(cloud, occluders, settings, po::SweepEstimator(sweep)) <= freeMemory();
-  return !triangles && !close && fits ? vtkSphereAmbientOcclusion::Sweep
-                                      : vtkSphereAmbientOcclusion::Embree;
+  return result;
 }
 }
 
-/// What the last execution did.
+/// One execution.
 struct vtkSphereAmbientOcclusion::Internals
 {
-  po::BakeCounters Counters;
-  std::size_t LeftOut = 0;
-  std::size_t TextureBytes = 0;
-  int Method = Automatic; ///< the one that was used
-  int Directions = 0;
-  std::size_t Refined = 0;
-  int SamplesUsed = 0;
-  double EstimatedError = 0;
+  po::BakeReport Report;
   double Seconds = 0;
 
-  /// Throws std::invalid_argument naming the parameter that is out of range.
-  static po::BakeSettings ReadSettings(vtkSphereAmbientOcclusion* self);
-  static po::Background ReadBackground(vtkSphereAmbientOcclusion* self);
-  static po::RadiusSettings ReadRadius(vtkSphereAmbientOcclusion* self);
-  static po::SweepOptions SweepOptions(vtkSphereAmbientOcclusion* self);
+  /// What was read of this process' data.
+  struct Particles
+  {
+    po::SphereCloud Cloud;
+    std::vector<unsigned> Places; ///< of each sphere in the cloud of the task
+  };
 
-  po::OcclusionParameters Describe(vtkSphereAmbientOcclusion* self,
-    const po::BakeSettings& settings, const po::EncodedTable& table,
-    const po::Occluders& occluders) const;
+  /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
+  void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
+    const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluderData);
 
-  void Bake(vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks,
-    vtkDataObject* occluderData);
-  static po::SphereCloud ReadParticles(
-    vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks);
-  static po::Occluders ReadOccluders(
-    vtkSphereAmbientOcclusion* self, vtkDataObject* data, const po::SphereCloud& cloud);
+  static Particles ReadParticles(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
+    const std::vector<vtkPolyData*>& blocks);
+  static po::Occluders ReadOccluders(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
+    vtkDataObject* data, const po::SphereCloud& cloud);
 
-  /// Settings are changed to what is used in their place.
-  po::BakeResult BakeByMethod(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
-    const po::Occluders& occluders, po::BakeSettings& settings);
-  po::BakeResult BakeBySweep(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
-    const po::Occluders& occluders, const po::BakeSettings& settings);
-  po::BakeResult BakeByEmbree(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
-    const po::Occluders& occluders, const po::BakeSettings& settings);
+  /// Exchanges particles and occluders with the other processes.
+  po::BakeTask MakeTask(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
+    Particles& particles, po::Occluders occluders, const po::BakeSettings& settings);
 
-  /// With a target error the samples that reach it are put into the settings.
-  po::BakeResult BakeByReference(vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud,
-    const po::Occluders& occluders, po::BakeSettings& settings);
+  void CountParticles(const Particles& particles, const po::BakeResult& result,
+    const po::BakeSettings& settings, const po::ProcessGroup& group);
 };
 
-po::Background vtkSphereAmbientOcclusion::Internals::ReadBackground(vtkSphereAmbientOcclusion* self)
+void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
+  const po::ProcessGroup& group, const std::vector<vtkPolyData*>& blocks,
+  vtkDataObject* occluderData)
 {
-  requireRange<int>("Background", self->Background, Uniform, Image);
-  if (self->Background == Gradient)
+  const po::BakeSettings settings = po::settingsOf(*self);
+  Particles particles = ReadParticles(self, group, blocks);
+  po::Occluders occluders = ReadOccluders(self, group, occluderData, particles.Cloud);
+  po::BakeTask task = this->MakeTask(self, group, particles, std::move(occluders), settings);
+
+  po::Progress progress(reportTo(self));
+  const int method = po::chooseMethod(self->Method, task, group);
+  po::BakeResult result = po::bakeByMethod(method, task, group, progress, this->Report);
+  if (result.aborted)
   {
-    const double* up = self->BackgroundUp;
-    const po::GradientBackground gradient{ { up[0], up[1], up[2] }, self->BackgroundBottom,
-      self->BackgroundTop };
-    if (!(po::length(gradient.up) > 0) || !std::isfinite(po::length(gradient.up)))
-    {
-      throw std::invalid_argument("BackgroundUp must be a direction, not the zero vector.");
-    }
-    requireNotNegative("BackgroundBottom", gradient.bottom);
-    requireNotNegative("BackgroundTop", gradient.top);
-    return gradient;
+    group.stop(po::WorkState::Aborted);
+    throw po::WorkStopped(po::WorkState::Aborted, "");
   }
-  if (self->Background == Image)
+  result = inOrderOf(particles.Places, task.receivers, std::move(result));
+  this->CountParticles(particles, result, settings, group);
+  const double error = this->Report.estimatedError;
+  if (self->TargetError > 0 && error > self->TargetError && group.rank() == 0)
   {
-    if (!self->BackgroundImage || !self->BackgroundImage[0])
-    {
-      throw std::invalid_argument(
-        "BackgroundImage is empty: choose an OpenEXR file in latitude and "
-        "longitude, or another Background.");
-    }
-    po::LatLongImage image = po::readLatLongImage(self->BackgroundImage);
-    return po::ImageBackground{ image.width, image.height, std::move(image.luminance) };
+    vtkWarningWithObjectMacro(self, << "TargetError " << self->TargetError
+                                    << " is out of reach: the most that this method can do leaves "
+                                    << error << ".");
   }
-  return po::UniformBackground{};
+  group.agree(); // nobody was aborted: from here on it is all or nothing
+  po::attachBake(blocks, particles.Cloud, result, po::describeBake(*self, settings, this->Report));
+  group.agree();
 }
 
-po::BakeSettings vtkSphereAmbientOcclusion::Internals::ReadSettings(vtkSphereAmbientOcclusion* self)
-{
-  requireRange(
-    "TextureResolution", self->TextureResolution, 1, po::BakeSettings::MaximumTextureResolution);
-  requireRange(
-    "SamplesPerTexel", self->SamplesPerTexel, 1, po::BakeSettings::MaximumSamplesPerTexel);
-  requireRange("TargetError", self->TargetError, 0.0, 1.0);
-  requireRange("InsideThreshold", self->InsideThreshold, 0.0, 1.0);
-  requireRange<int>("Encoding", self->Encoding, UInt8Gamma2, Float32Linear);
-  requireRange("Seed", self->Seed, 0, VTK_INT_MAX);
-  requireNotNegative("MaximumDistance", self->MaximumDistance, " (0 = unbounded)");
-  requireRange<int>("Method", self->Method, Automatic, Reference);
-  po::BakeSettings settings;
-  settings.textureResolution = self->TextureResolution;
-  settings.samplesPerTexel = self->SamplesPerTexel;
-  settings.maximumDistance = self->MaximumDistance;
-  settings.dilateInside = self->DilateInside;
-  settings.insideThreshold = self->InsideThreshold;
-  settings.encoding = static_cast<po::Encoding>(self->Encoding);
-  settings.seed = static_cast<std::uint64_t>(self->Seed);
-  settings.background = ReadBackground(self);
-  return settings;
-}
-
-po::RadiusSettings vtkSphereAmbientOcclusion::Internals::ReadRadius(vtkSphereAmbientOcclusion* self)
-{
-  return { self->RadiusArray ? self->RadiusArray : "", self->RadiusScale, self->ConstantRadius };
-}
-
-po::SweepOptions vtkSphereAmbientOcclusion::Internals::SweepOptions(vtkSphereAmbientOcclusion* self)
-{
-  po::SweepOptions options;
-  options.targetError = self->TargetError;
-  return options;
-}
-
-po::OcclusionParameters vtkSphereAmbientOcclusion::Internals::Describe(
-  vtkSphereAmbientOcclusion* self, const po::BakeSettings& settings, const po::EncodedTable& table,
-  const po::Occluders& occluders) const
-{
-  po::OcclusionParameters parameters;
-  parameters.set("version", ContractVersion);
-  parameters.set("method", MethodNames[this->Method]);
-  parameters.set("resolution", settings.textureResolution);
-  parameters.set("samplesPerTexel", settings.samplesPerTexel);
-  parameters.set("seed", self->Seed);
-  parameters.set("encoding", EncodingNames[self->Encoding]);
-  parameters.set("gamma", settings.encoding == po::Encoding::UInt8Gamma2 ? 2.0 : 1.0);
-  parameters.set("maximum", table.maximum);
-  parameters.set("insideThreshold", settings.insideThreshold);
-  parameters.set("dilateInside", settings.dilateInside);
-  parameters.set("maximumDistance", settings.maximumDistance);
-  parameters.set("radiusArray", self->RadiusArray ? self->RadiusArray : "");
-  parameters.set("radiusScale", self->RadiusScale);
-  parameters.set("constantRadius", self->ConstantRadius);
-  parameters.set("background", BackgroundNames[self->Background]);
-  if (self->Background == Gradient)
-  {
-    std::ostringstream up;
-    up.imbue(std::locale::classic());
-    up.precision(17);
-    up << self->BackgroundUp[0] << ' ' << self->BackgroundUp[1] << ' ' << self->BackgroundUp[2];
-    parameters.set("backgroundUp", up.str());
-    parameters.set("backgroundBottom", self->BackgroundBottom);
-    parameters.set("backgroundTop", self->BackgroundTop);
-  }
-  if (self->Background == Image)
-  {
-    parameters.set("backgroundImage", self->BackgroundImage);
-  }
-  parameters.set("targetError", self->TargetError);
-  parameters.set("estimatedError", this->EstimatedError);
-  parameters.set("directions", this->Directions);
-  parameters.set("occluderTriangles", static_cast<long long>(occluders.mesh.triangles.size()));
-  parameters.set("occluderSpheres", static_cast<long long>(occluders.spheres.size()));
-  parameters.set("refinedParticles", static_cast<long long>(this->Refined));
-  return parameters;
-}
-
-po::SphereCloud vtkSphereAmbientOcclusion::Internals::ReadParticles(
-  vtkSphereAmbientOcclusion* self, const std::vector<vtkPolyData*>& blocks)
+vtkSphereAmbientOcclusion::Internals::Particles vtkSphereAmbientOcclusion::Internals::ReadParticles(
+  vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
+  const std::vector<vtkPolyData*>& blocks)
 {
   std::string error;
-  std::optional<po::SphereCloud> cloud = po::readBlocks(blocks, ReadRadius(self), error);
+  std::optional<po::SphereCloud> cloud =
+    po::readBlocks(blocks, po::radiiOf(*self), error, nullptr, group);
   if (!cloud)
   {
     throw std::invalid_argument(error);
   }
-  if (cloud->rejected.total() > 0)
+  const po::RejectedParticles rejected = cloud->rejected.summed(group);
+  if (rejected.total() > 0 && group.rank() == 0)
   {
-    vtkWarningWithObjectMacro(self, << po::describe(cloud->rejected));
+    vtkWarningWithObjectMacro(self, << po::describe(rejected));
   }
-  return std::move(*cloud);
+  return { std::move(*cloud), {} };
 }
 
-po::Occluders vtkSphereAmbientOcclusion::Internals::ReadOccluders(
-  vtkSphereAmbientOcclusion* self, vtkDataObject* data, const po::SphereCloud& cloud)
+po::Occluders vtkSphereAmbientOcclusion::Internals::ReadOccluders(vtkSphereAmbientOcclusion* self,
+  const po::ProcessGroup& group, vtkDataObject* data, const po::SphereCloud& cloud)
 {
-  po::OccluderInput input = po::readOccluders(data, ReadRadius(self), cloud);
+  po::OccluderInput input = po::readOccluders(data, po::radiiOf(*self), cloud, group);
   for (const std::string& warning : input.warnings)
   {
-    vtkWarningWithObjectMacro(self, << warning);
+    if (group.rank() == 0)
+    {
+      vtkWarningWithObjectMacro(self, << warning);
+    }
   }
   return std::move(input.occluders);
 }
 
-void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
-  const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluderData)
+po::BakeTask vtkSphereAmbientOcclusion::Internals::MakeTask(vtkSphereAmbientOcclusion* self,
+  const po::ProcessGroup& group, Particles& particles, po::Occluders occluders,
+  const po::BakeSettings& settings)
 {
-  po::BakeSettings settings = ReadSettings(self);
-  const po::SphereCloud cloud = ReadParticles(self, blocks);
-  this->LeftOut = cloud.rejected.total();
-  const po::Occluders occluders = ReadOccluders(self, occluderData, cloud);
-  this->Method = chooseMethod(self->Method, cloud, occluders, settings, SweepOptions(self));
-  const po::BakeResult result = this->BakeByMethod(self, cloud, occluders, settings);
-  if (result.aborted)
-  {
-    return;
-  }
-  this->SamplesUsed = settings.samplesPerTexel;
-  this->Counters = result.counters;
-  this->TextureBytes = result.table.bytes.size() + result.table.floats.size() * sizeof(float);
-  if (self->TargetError > 0 && this->EstimatedError > self->TargetError)
-  {
-    vtkWarningWithObjectMacro(self, << "TargetError " << self->TargetError
-                                    << " is out of reach: the most that this method can do leaves "
-                                    << this->EstimatedError << ".");
-  }
-  po::attachBake(blocks, cloud, result, this->Describe(self, settings, result.table, occluders));
+  const po::SphereCloud& own = particles.Cloud;
+  this->Report.leftOut = own.rejected.summed(group).total();
+  this->Report.occluderSpheres = group.sum(std::uint64_t(occluders.spheres.size()));
+  this->Report.occluderTriangles = group.sum(std::uint64_t(occluders.mesh.triangles.size()));
+
+  const float reach = settings.maximumDistance > 0
+    ? static_cast<float>(settings.maximumDistance / own.scale)
+    : std::numeric_limits<float>::infinity();
+  const po::Neighbourhood neighbourhood(own.spheres, reach, group);
+  po::SharedSpheres shared =
+    po::shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
+  particles.Places = std::move(shared.places);
+
+  po::BakeTask task;
+  task.cloud.origin = own.origin;
+  task.cloud.scale = own.scale;
+  task.cloud.spheres = std::move(shared.spheres);
+  task.cloud.centers = std::move(shared.centers);
+  task.receivers = distinct(particles.Places);
+  task.occluders = po::shareOccluders(std::move(occluders), neighbourhood, group);
+  task.settings = settings;
+  task.targetError = self->TargetError;
+  return task;
 }
 
-po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByMethod(vtkSphereAmbientOcclusion* self,
-  const po::SphereCloud& cloud, const po::Occluders& occluders, po::BakeSettings& settings)
+/// Ghosts were baked, since they are drawn, but count where they are at home.
+void vtkSphereAmbientOcclusion::Internals::CountParticles(const Particles& particles,
+  const po::BakeResult& result, const po::BakeSettings& settings, const po::ProcessGroup& group)
 {
-  switch (this->Method)
+  std::uint64_t owned = 0;
+  std::uint64_t dark = 0;
+  const std::vector<std::uint8_t>& ghosts = particles.Cloud.ghosts;
+  for (std::size_t i = 0; i < result.mean.size(); ++i)
   {
-    case Sweep:
-      return this->BakeBySweep(self, cloud, occluders, settings);
-    case Embree:
-      return this->BakeByEmbree(self, cloud, occluders, settings);
-    default:
-      return this->BakeByReference(self, cloud, occluders, settings);
+    const bool isOwned = ghosts.empty() || ghosts[i] == 0;
+    owned += isOwned;
+    dark += isOwned && result.mean[i] == 0;
   }
-}
-
-po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeBySweep(vtkSphereAmbientOcclusion* self,
-  const po::SphereCloud& cloud, const po::Occluders& occluders, const po::BakeSettings& settings)
-{
-  const po::SweepEstimator sweep(Internals::SweepOptions(self));
-  requireMemory(sceneMemory(cloud, occluders, settings, sweep), cloud.spheres.size());
-  po::Progress progress(reportTo(self));
-  po::BakeResult result =
-    po::bakeOcclusion(po::BakeScene(cloud, occluders), settings, sweep, progress);
-  this->Directions = sweep.report().directions;
-  this->Refined = sweep.report().refined;
-  this->EstimatedError = sweep.report().estimatedError;
-  return result;
-}
-
-po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByEmbree(vtkSphereAmbientOcclusion* self,
-  const po::SphereCloud& cloud, const po::Occluders& occluders, const po::BakeSettings& settings)
-{
-  po::EmbreeOptions options;
-  options.targetError = self->TargetError;
-  const po::EmbreeEstimator embree(options);
-  requireMemory(sceneMemory(cloud, occluders, settings, embree), cloud.spheres.size());
-  po::Progress progress(reportTo(self));
-  po::BakeResult result =
-    po::bakeOcclusion(po::BakeScene(cloud, occluders), settings, embree, progress);
-  this->Directions = embree.report().directions;
-  this->EstimatedError = embree.report().estimatedError;
-  return result;
-}
-
-po::BakeResult vtkSphereAmbientOcclusion::Internals::BakeByReference(
-  vtkSphereAmbientOcclusion* self, const po::SphereCloud& cloud, const po::Occluders& occluders,
-  po::BakeSettings& settings)
-{
-  const po::ReferenceEstimator reference;
-  requireMemory(sceneMemory(cloud, occluders, settings, reference), cloud.spheres.size());
-  const po::BakeScene scene(cloud, occluders);
-  po::Progress progress(reportTo(self));
-  if (self->TargetError > 0)
-  {
-    const po::PilotResult pilot =
-      po::samplesForError(scene, settings, reference, self->TargetError, progress);
-    settings.samplesPerTexel = pilot.samplesPerTexel;
-    this->EstimatedError = pilot.estimatedError;
-  }
-  return po::bakeOcclusion(scene, settings, reference, progress);
+  const auto side = static_cast<std::uint64_t>(settings.textureResolution);
+  this->Report.counters.particles = group.sum(owned);
+  this->Report.counters.texels = this->Report.counters.particles * side * side;
+  this->Report.counters.particlesDark = group.sum(dark);
+  const std::size_t bytes = result.table.bytes.size() + result.table.floats.size() * sizeof(float);
+  this->Report.textureBytes = group.sum(std::uint64_t(bytes));
 }
 
 vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
   : Impl(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(2);
+  this->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
@@ -424,140 +238,146 @@ int vtkSphereAmbientOcclusion::RequestData(
 {
   const auto start = std::chrono::steady_clock::now();
   *this->Impl = Internals();
+  this->SetErrorCode(vtkErrorCode::NoError);
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
-  output->ShallowCopy(input); // of a composite data set the leaves too
-
-  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  if (processes && processes->GetNumberOfProcesses() > 1 && processes->GetLocalProcessId() == 0)
+  vtkDataObject* occluders = vtkDataObject::GetData(inputVector[OccludersPort]);
+  const po::ControllerGroup group(this->Controller);
+  const auto bake = [&]
   {
-    vtkWarningMacro("Every process bakes its own particles as if there were no others: expect too "
-                    "bright values where processes meet.");
-  }
-
+    output->ShallowCopy(input); // of a composite data set the leaves too
+    this->Impl->Bake(this, group, po::particleBlocks(output), occluders);
+  };
   std::string error;
-  try
+  if (!po::runTogether(group, bake, error))
   {
-    this->Impl->Bake(
-      this, po::particleBlocks(output), vtkDataObject::GetData(inputVector[OccludersPort]));
+    *this->Impl = Internals();
+    output->ShallowCopy(input); // without what some blocks may have got before the fault
+    this->SetErrorCode(vtkErrorCode::UserError);
+    if (group.rank() == 0)
+    {
+      vtkErrorMacro(<< error);
+    }
+    return 1; // so that what is downstream shows the particles, though unbaked
   }
-  catch (const std::bad_alloc&)
-  {
-    error = "Memory ran out while baking: lower TextureResolution or bake fewer particles.";
-  }
-  catch (const std::exception& exception)
-  {
-    error = exception.what();
-  }
-  if (!error.empty())
-  {
-    output->Initialize();
-    vtkErrorMacro(<< error);
-    return 0;
-  }
+  this->SetAbortOutput(false); // or the pipeline would empty the output of an aborted bake
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   this->Impl->Seconds = elapsed.count();
   return 1;
 }
 
+void vtkSphereAmbientOcclusion::SetController(vtkMultiProcessController* controller)
+{
+  if (this->Controller != controller)
+  {
+    this->Controller = controller;
+    this->Modified();
+  }
+}
+
+vtkMultiProcessController* vtkSphereAmbientOcclusion::GetController()
+{
+  return this->Controller;
+}
+
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticles()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.particles);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.particles);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexels()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.texels);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.texels);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfRays()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.rays);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.rays);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfSamplesInside()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.samplesInside);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.samplesInside);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexelsInside()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.texelsInside);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.texelsInside);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesBuried()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.particlesBuried);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesBuried);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesDark()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.particlesDark);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesDark);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesLeftOut()
 {
-  return static_cast<vtkIdType>(this->Impl->LeftOut);
+  return static_cast<vtkIdType>(this->Impl->Report.leftOut);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextures()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.texturesStored);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.texturesStored);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextureBytes()
 {
-  return static_cast<vtkIdType>(this->Impl->TextureBytes);
+  return static_cast<vtkIdType>(this->Impl->Report.textureBytes);
 }
 
 int vtkSphereAmbientOcclusion::GetNumberOfThreads()
 {
-  return static_cast<int>(this->Impl->Counters.threads);
+  return static_cast<int>(this->Impl->Report.counters.threads);
 }
 
 const char* vtkSphereAmbientOcclusion::GetMethodUsed()
 {
-  return MethodNames[this->Impl->Method];
+  return po::nameOfMethod(this->Impl->Report.method);
 }
 
 int vtkSphereAmbientOcclusion::GetNumberOfDirections()
 {
-  return this->Impl->Directions;
+  return this->Impl->Report.directions;
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesRefined()
 {
-  return static_cast<vtkIdType>(this->Impl->Refined);
+  return static_cast<vtkIdType>(this->Impl->Report.refined);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsClosed()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.spheresClosed);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.spheresClosed);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsNeverSeen()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.spheresNeverSeen);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.spheresNeverSeen);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfDirectionsBlack()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.directionsBlack);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.directionsBlack);
 }
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesAlone()
 {
-  return static_cast<vtkIdType>(this->Impl->Counters.particlesAlone);
+  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesAlone);
 }
 
 int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
 {
-  return this->Impl->SamplesUsed;
+  return this->Impl->Report.samplesUsed;
 }
 
 double vtkSphereAmbientOcclusion::GetEstimatedError()
 {
-  return this->Impl->EstimatedError;
+  return this->Impl->Report.estimatedError;
 }
 
 double vtkSphereAmbientOcclusion::GetBakeSeconds()

@@ -4,8 +4,11 @@
 
 #include "ParticleOcclusionFiltersModule.h"
 #include "vtkPassInputTypeAlgorithm.h"
+#include "vtkSmartPointer.h"
 
 #include <memory>
+
+class vtkMultiProcessController;
 
 /**
  * @class vtkSphereAmbientOcclusion
@@ -39,12 +42,22 @@
  * from +x towards +y.
  *
  * Particles whose position or radius is NaN, infinite, zero or negative are left out with one
- * warning that counts them: row -1, visibility 0. If a parameter or array is wrong the filter
- * reports one error that names it and gives no output. When aborted, it passes the input on
- * unbaked.
+ * warning that counts them: row -1, visibility 0. If a parameter or array is wrong, memory runs
+ * out or Embree fails, the filter reports one error that says so, its error code is not
+ * vtkErrorCode::NoError, and it passes the input on unchanged: never with part of a table. When
+ * aborted, it passes the input on too, without an error.
  *
- * Under MPI every process bakes its own particles as if there were no others, and no occluders but
- * its own.
+ * What a bake may need at most is compared with what is free before it begins: of the machine, of
+ * the limits of the process, and of the environment variable PARTICLEOCCLUSION_MEMORY_LIMIT, in
+ * KiB, for batch jobs and containers whose limit the system does not tell.
+ *
+ * The processes of Controller bake together: each gets the textures of its own particles, in the
+ * light that the particles and occluders of all processes leave. 16 bytes of each sphere travel; of
+ * those beyond MaximumDistance nothing does. Textures are the same bits for any number of processes
+ * and any distribution of the particles, but for rounding where MaximumDistance is set, and where
+ * TargetError asks for sums over processes. Duplicate points of vtkGhostType count once. Numbers
+ * about the execution are those of all processes. An error of one process is the one error of all,
+ * reported by the first; when one is aborted, so are all, as soon as they are done with their part.
  */
 class PARTICLEOCCLUSIONFILTERS_EXPORT vtkSphereAmbientOcclusion : public vtkPassInputTypeAlgorithm
 {
@@ -201,7 +214,13 @@ public:
   ///@}
 
   ///@{
-  /// What the last execution did and what it could skip.
+  /// The processes whose particles make up one set [the global controller]. Null: this one alone.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  ///@}
+
+  ///@{
+  /// What the last execution did and what it could skip, on all processes together.
   vtkIdType GetNumberOfParticles();
   vtkIdType GetNumberOfTexels();
   vtkIdType GetNumberOfRays();
@@ -254,6 +273,7 @@ private:
   double InsideThreshold = 0.05;
   int Encoding = UInt8Gamma2;
   int Seed = 1;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
   struct Internals;
   std::unique_ptr<Internals> Impl;

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Set-up shared by Testing/run.sh and Data/demo.sh: installs the system packages that are missing
-# (Testing/packages.txt), configures and builds with the preset `default` into build/.
+# Set-up shared by Testing/run.sh, Testing/sanitizers.sh and Data/demo.sh: installs the system packages
+# that are missing (Testing/packages.txt), configures and builds with the preset `default` into build/
+# or, of Testing/sanitizers.sh, with presets of its own (configure_and_build PRESET).
 # What apt, CMake and the compiler say goes to build/setup.log; its end is shown if they fail.
 set -euo pipefail
 
@@ -59,19 +60,21 @@ install_packages() {
     apt-get install --yes --no-install-recommends -o DPkg::Lock::Timeout=300 "${missing[@]}"
 }
 
-# Ninja configures again by itself when a CMake file has changed.
+# configure_and_build PRESET: `default` is in build/, others in build-PRESET/. Ninja configures again by
+# itself when a CMake file has changed.
 configure_and_build() {
+  local preset=$1 folder=build
+  [[ $preset == default ]] || folder=build-$preset
   cd "$source_dir"
-  if [[ ! -f build/build.ninja || CMakePresets.json -nt build/build.ninja ]]; then
-    echo "Configuring ..."
-    run "cmake --preset default" cmake --preset default
+  if [[ ! -f $folder/build.ninja || CMakePresets.json -nt $folder/build.ninja ]]; then
+    echo "Configuring $preset ..."
+    run "cmake --preset $preset" cmake --preset "$preset"
   fi
-  echo "Building ..."
-  run "cmake --build --preset default" cmake --build --preset default --parallel "$(nproc)"
+  echo "Building $preset ..."
+  run "cmake --build --preset $preset" cmake --build --preset "$preset" --parallel "$(nproc)"
 }
 
 use_system_tools
 mkdir -p "$source_dir/build"
 : >"$log"
 install_packages
-configure_and_build

@@ -94,6 +94,21 @@ std::optional<Matrix4> invertAffine(const Matrix4& a)
   return isFinite(a) && isFinite(inverse) ? std::optional(inverse) : std::nullopt;
 }
 
+Camera bandOf(const Camera& camera, int first, int rows)
+{
+  Camera band = camera;
+  band.height = rows;
+  // In clip space y goes from -w to w over all rows; the band's shall do so over its own.
+  const double stretch = static_cast<double>(camera.height) / rows;
+  const double shift = (camera.height - 2.0 * first - rows) / rows;
+  for (std::size_t column = 0; column < 4; ++column)
+  {
+    band.eyeToClip[4 + column] =
+      stretch * camera.eyeToClip[4 + column] + shift * camera.eyeToClip[12 + column];
+  }
+  return band;
+}
+
 std::optional<PrimaryRays> PrimaryRays::make(const Camera& camera, const Matrix4& localToWorld)
 {
   const std::optional<Matrix4> eyeToWorld = invertAffine(camera.worldToEye);

@@ -33,6 +33,10 @@ struct Camera
   int height = 0;
 };
 
+/// The camera of `rows` rows of the view from row `first` (from below) on, so that large pictures
+/// can be made in parts.
+[[nodiscard]] Camera bandOf(const Camera& camera, int first, int rows);
+
 /// A value that depends linearly on the position in the window.
 template <typename T>
 struct WindowFunction

@@ -14,10 +14,17 @@ constexpr float MostCells = 256;  ///< along a side
 constexpr float Margin = 3;       ///< in reaches: what halo spheres cover
 constexpr float Open = -std::numeric_limits<float>::infinity();
 
-/// The first cell that begins at or after a position (in cells).
-int firstWhole(float position)
+/// A position (in cells) within the grid as an integer: a large sphere may reach beyond all
+/// integers.
+int within(float position, int side)
 {
-  return position > 0 ? static_cast<int>(position) + 1 : 0;
+  return static_cast<int>(std::clamp(position, 0.0f, static_cast<float>(side)));
+}
+
+/// The first cell that begins at or after a position; `side` or more if there is none.
+int firstWhole(float position, int side)
+{
+  return position > 0 ? within(position, side) + 1 : 0;
 }
 }
 
@@ -43,35 +50,37 @@ void ClosedCells::close(const ProjectedSphere& s)
   const float y = (s.y - lowY_) * perCell_;
   // A little less than the disc: rounding may then cost time, but never a wrong answer.
   const float radius = s.radius * perCell_ * (1 - 1e-5f);
-  const int bottom = firstWhole(y - radius);
-  const int top = std::min(side_, static_cast<int>(std::max(0.0f, y + radius)));
+  const int bottom = firstWhole(y - radius, side_);
+  const int top = within(y + radius, side_);
   for (int row = bottom; row < top; ++row)
   {
     const float edge = static_cast<float>(row);
     const float dy = std::max(y - edge, edge + 1 - y); // to the farther edge of the row
     const float halfWidth = std::sqrt(std::max(0.0f, radius * radius - dy * dy));
-    const int right = std::min(side_, static_cast<int>(std::max(0.0f, x + halfWidth)));
-    closeRow(row, firstWhole(x - halfWidth), right, s.z);
+    const int right = within(x + halfWidth, side_);
+    closeRow(row, firstWhole(x - halfWidth, side_), right, s.z);
   }
 }
 
 void ClosedCells::closeRow(int row, int left, int right, float z)
 {
   float* cells = height_.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(side_);
-  int closed = 0;
-  if (row >= inner_ && row < side_ - inner_)
-  {
-    for (int column = std::max(left, inner_); column < std::min(right, side_ - inner_); ++column)
-    {
-      closed += cells[column] == Open ? 1 : 0;
-    }
-  }
+  const auto across = static_cast<unsigned>(side_ - 2 * inner_);
+  const unsigned reached = static_cast<unsigned>(row - inner_) < across ? across : 0;
+  unsigned closed = 0;
   for (int column = left; column < right; ++column)
   {
-    cells[column] = std::max(cells[column], z); // a closed one is higher: z falls
+    const bool open = cells[column] == Open;
+    cells[column] = open ? z : cells[column]; // a closed one is higher: z falls
+    closed += unsigned(open) & unsigned(static_cast<unsigned>(column - inner_) < reached);
   }
-  open_ -= closed;
+  open_ -= static_cast<int>(closed);
   lowest_ = closed > 0 ? z : lowest_;
+}
+
+int ClosedCells::cellAt(float offset) const
+{
+  return within(offset * perCell_, side_);
 }
 
 bool ClosedCells::hides(const ProjectedSphere& s) const

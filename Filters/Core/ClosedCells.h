@@ -29,7 +29,8 @@ public:
 
 private:
   void closeRow(int row, int left, int right, float z);
-  [[nodiscard]] int cellAt(float offset) const { return static_cast<int>(offset * perCell_); }
+  /// Of an offset from the low edge; the number of cells along a side if it lies beyond.
+  [[nodiscard]] int cellAt(float offset) const;
 
   std::vector<float> height_; ///< below it a cell is closed; -infinity in an open one
   float lowX_ = 0, lowY_ = 0, cell_ = 1, perCell_ = 1, reach_ = 0;

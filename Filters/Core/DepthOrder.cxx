@@ -37,6 +37,7 @@ void insertionSort(std::uint64_t* first, std::uint64_t* last)
 
 void DepthOrder::begin(const DepthTile& tile)
 {
+  spheres_ = tile.first;
   const std::size_t count = tile.size();
   const std::size_t slabs = count / SpheresPerSlab + 1;
   float low = tile.first->sphere.z;
@@ -61,6 +62,7 @@ void DepthOrder::begin(const DepthTile& tile)
   }
   next_.assign(starts_.begin(), starts_.end() - 1);
   keys_.resize(count);
+  ordered_.resize(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     keys_[next_[slabOf_[i]]++] = makeKey(tile.first[i].sphere.z, i);
@@ -68,23 +70,31 @@ void DepthOrder::begin(const DepthTile& tile)
   sorted_.assign(slabs, 0);
 }
 
-DepthOrder::Slab DepthOrder::slab(std::size_t index)
+void DepthOrder::sort(std::size_t slab)
 {
   constexpr std::ptrdiff_t few = 32;
-  std::uint64_t* first = keys_.data() + starts_[index];
-  std::uint64_t* last = keys_.data() + starts_[index + 1];
+  std::uint64_t* first = keys_.data() + starts_[slab];
+  std::uint64_t* last = keys_.data() + starts_[slab + 1];
+  if (last - first <= few)
+  {
+    insertionSort(first, last);
+  }
+  else
+  {
+    std::sort(first, last);
+  }
+  // Spheres lie all over the tile: fetched together, they wait for memory together.
+  std::transform(first, last, ordered_.begin() + starts_[slab],
+    [this](std::uint64_t key) { return spheres_[key & 0xFFFFFFFFu]; });
+}
+
+DepthOrder::Slab DepthOrder::slab(std::size_t index)
+{
   if (sorted_[index] == 0)
   {
     sorted_[index] = 1;
-    if (last - first <= few)
-    {
-      insertionSort(first, last);
-    }
-    else
-    {
-      std::sort(first, last);
-    }
+    sort(index);
   }
-  return { first, last };
+  return { ordered_.data() + starts_[index], ordered_.data() + starts_[index + 1] };
 }
 }

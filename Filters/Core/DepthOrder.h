@@ -22,18 +22,21 @@ public:
 
   [[nodiscard]] std::size_t slabs() const { return starts_.size() - 1; }
 
-  /// Places in the tile of a slab's spheres, sorted by z upward and then by place. Slabs are
-  /// numbered upward too.
+  /// A slab's spheres, sorted by z upward and then by place in the tile. Slabs are numbered upward
+  /// too.
   struct Slab
   {
-    const std::uint64_t* first;
-    const std::uint64_t* last;
+    const TileSphere* first;
+    const TileSphere* last;
   };
   [[nodiscard]] Slab slab(std::size_t index);
-  [[nodiscard]] static std::size_t place(std::uint64_t key) { return key & 0xFFFFFFFFu; }
 
 private:
-  std::vector<std::uint64_t> keys_; ///< height above, place below
+  void sort(std::size_t slab);
+
+  const TileSphere* spheres_ = nullptr;
+  std::vector<TileSphere> ordered_; ///< of the slabs that are sorted
+  std::vector<std::uint64_t> keys_; ///< height above, place in the tile below
   std::vector<std::uint32_t> slabOf_;
   std::vector<std::uint32_t> starts_{ 0 };
   std::vector<std::uint32_t> next_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Embree.h"
 
+#include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -29,10 +30,27 @@ const char* describe(RTCError error)
       return "unknown error";
   }
 }
+
+/// Where an allocation of its own fails, Embree 3.13 corrupts its heap or hangs.
+void requireMemoryForScene(std::size_t primitives)
+{
+  // Measured below 300 bytes a primitive; the rest is for blocks that each thread takes at once.
+  constexpr std::size_t BytesPerPrimitive = 300;
+  constexpr std::size_t BytesOfThreads = std::size_t{ 32 } << 20;
+  // Not new, which a compiler may leave out with its delete. Pages that are not touched cost
+  // nothing.
+  void* volatile rehearsal = std::malloc(BytesOfThreads + BytesPerPrimitive * primitives);
+  if (!rehearsal)
+  {
+    throw std::bad_alloc();
+  }
+  std::free(rehearsal);
+}
 }
 
-DeviceHandle makeDevice()
+DeviceHandle makeDevice(std::size_t primitives)
 {
+  requireMemoryForScene(primitives);
   DeviceHandle device(rtcNewDevice(nullptr));
   if (!device)
   {
@@ -40,6 +58,32 @@ DeviceHandle makeDevice()
       std::string("Embree could not start: ") + describe(rtcGetDeviceError(nullptr)));
   }
   return device;
+}
+
+SceneHandle makeScene(RTCDevice device)
+{
+  SceneHandle scene(rtcNewScene(device));
+  if (!scene)
+  {
+    throwOnError(device, "making a scene");
+    throw std::runtime_error("Embree made no scene and gave no reason.");
+  }
+  return scene;
+}
+
+GeometryHandle makeGeometry(RTCDevice device, RTCGeometryType type, const char* option)
+{
+  GeometryHandle geometry(rtcNewGeometry(device, type));
+  if (!geometry)
+  {
+    if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY)
+    {
+      throw std::bad_alloc();
+    }
+    throw std::runtime_error(
+      std::string("This build of Embree was configured without ") + option + ".");
+  }
+  return geometry;
 }
 
 void throwOnError(RTCDevice device, const char* action)

@@ -10,6 +10,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 
@@ -108,8 +109,15 @@ using DeviceHandle = std::unique_ptr<std::remove_pointer_t<RTCDevice>, ReleaseDe
 using SceneHandle = std::unique_ptr<std::remove_pointer_t<RTCScene>, ReleaseScene>;
 using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
 
-/// A new Embree device; throws std::runtime_error with Embree's reason.
-[[nodiscard]] DeviceHandle makeDevice();
+/// A new Embree device for scenes of together so many spheres and triangles; throws
+/// std::runtime_error with Embree's reason, or std::bad_alloc if the memory for them is not there.
+[[nodiscard]] DeviceHandle makeDevice(std::size_t primitives);
+
+/// A new scene or geometry, never null: throws std::bad_alloc or std::runtime_error instead.
+/// @param option of Embree's build without which it has no such geometry, for the message
+[[nodiscard]] SceneHandle makeScene(RTCDevice device);
+[[nodiscard]] GeometryHandle makeGeometry(
+  RTCDevice device, RTCGeometryType type, const char* option);
 
 /// Throws std::runtime_error if the device has an error to report; `action` says what was tried.
 void throwOnError(RTCDevice device, const char* action);

@@ -246,7 +246,7 @@ private:
     TexelExposure exposure;
     if (!work.overlaps.caps.empty())
     {
-      exposure = exposeTexels(texels_, set.patterns(), work.overlaps.caps);
+      exposeTexels(texels_, set.patterns(), work.overlaps.caps, exposure);
       if (firstSet)
       {
         sums.makeCut(formula_.cut(exposure));
@@ -263,8 +263,7 @@ private:
       {
         continue;
       }
-      Random random(
-        settings_.seed, static_cast<std::uint64_t>(scene_.cloud.sourceIds[id]), direction.index);
+      Random random(settings_.seed, scene_.randomKey(id), direction.index);
       work.view.hide(direction, random, work.seen.data());
       sums.add(direction, work.exposed.data(), work.seen.data());
     }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 
 namespace po
 {
@@ -14,18 +14,25 @@ namespace
 {
 constexpr std::size_t PilotParticles = 128;
 
-std::vector<unsigned> choosePilotParticles(std::size_t particles)
+/// Those with the smallest random keys.
+std::vector<unsigned> choosePilotParticles(
+  const BakeScene& scene, const std::vector<unsigned>& particles)
 {
-  std::vector<unsigned> chosen(particles);
-  std::iota(chosen.begin(), chosen.end(), 0u);
-  const std::size_t count = std::min(particles, PilotParticles);
-  Random random(1, particles, 0);
-  for (std::size_t i = 0; i < count; ++i)
+  const auto smallest = [](ProcessGroup::Words keys)
   {
-    std::swap(chosen[i], chosen[i + random.below(static_cast<std::uint32_t>(particles - i))]);
+    std::sort(keys.begin(), keys.end());
+    keys.resize(std::min(keys.size(), PilotParticles));
+    return keys;
+  };
+  ProcessGroup::Words keys;
+  for (const unsigned particle : particles)
+  {
+    keys.push_back(scene.randomKey(particle));
   }
-  chosen.resize(count);
-  std::sort(chosen.begin(), chosen.end());
+  const ProcessGroup::Words chosenKeys = smallest(scene.group.gather(smallest(std::move(keys))));
+  std::vector<unsigned> chosen;
+  std::copy_if(particles.begin(), particles.end(), std::back_inserter(chosen),
+    [&](unsigned particle) { return scene.randomKey(particle) <= chosenKeys.back(); });
   return chosen;
 }
 
@@ -55,7 +62,7 @@ Textures bakePilot(const BakeScene& scene, const std::vector<unsigned>& particle
 }
 
 /// RMS difference of two bakes over the visible area, divided by sqrt(2).
-double errorOf(const Textures& a, const Textures& b, int resolution)
+double errorOf(const Textures& a, const Textures& b, int resolution, const ProcessGroup& group)
 {
   double squares = 0;
   double area = 0;
@@ -69,6 +76,8 @@ double errorOf(const Textures& a, const Textures& b, int resolution)
     squares += weight * difference * difference;
     area += weight;
   }
+  squares = group.sum(squares);
+  area = group.sum(area);
   return area > 0 ? std::sqrt(squares / area / 2) : 0;
 }
 
@@ -81,24 +90,25 @@ int moreSamples(int samples, double excess)
 }
 }
 
-PilotResult samplesForError(const BakeScene& scene, const BakeSettings& settings,
-  const OcclusionEstimator& estimator, double targetError, Progress& progress)
+PilotResult samplesForError(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, const OcclusionEstimator& estimator, double targetError,
+  Progress& progress)
 {
-  const std::vector<unsigned> particles = choosePilotParticles(scene.receivers());
+  const std::vector<unsigned> pilot = choosePilotParticles(scene, particles);
   PilotResult result;
   result.samplesPerTexel = 16;
   for (;;)
   {
     BakeSettings trial = settings;
     trial.samplesPerTexel = result.samplesPerTexel;
-    const Textures first = bakePilot(scene, particles, trial, estimator, progress);
+    const Textures first = bakePilot(scene, pilot, trial, estimator, progress);
     trial.seed = mixBits(settings.seed + 1);
-    const Textures second = bakePilot(scene, particles, trial, estimator, progress);
+    const Textures second = bakePilot(scene, pilot, trial, estimator, progress);
     if (progress.aborted())
     {
       return result;
     }
-    result.estimatedError = errorOf(first, second, settings.textureResolution);
+    result.estimatedError = errorOf(first, second, settings.textureResolution, scene.group);
     result.reached = result.estimatedError <= targetError;
     if (result.reached || result.samplesPerTexel == BakeSettings::MaximumSamplesPerTexel)
     {

@@ -16,10 +16,12 @@ struct PilotResult
 
 /// Finds the samples per texel at which the RMS error of a set falls below `targetError`.
 ///
-/// A fixed-seed choice of up to 128 particles is baked twice with different seeds, with more and
-/// more samples. Two independent estimates with error e differ by e sqrt(2) RMS, which needs no
-/// other reference. With 128 particles of 16 x 16 texels the error is known to a few percent.
-[[nodiscard]] PilotResult samplesForError(const BakeScene& scene, const BakeSettings& settings,
+/// 128 of the listed particles, of all processes together, are baked twice with different seeds,
+/// with more and more samples. Two independent estimates with error e differ by e sqrt(2) RMS,
+/// which needs no other reference. With 128 particles of 16 x 16 texels the error is known to a few
+/// percent. The choice depends on the particles alone.
+[[nodiscard]] PilotResult samplesForError(const BakeScene& scene,
+  const std::vector<unsigned>& particles, const BakeSettings& settings,
   const OcclusionEstimator& estimator, double targetError, Progress& progress);
 }
 

@@ -16,7 +16,7 @@ namespace po
 class NearSpheres
 {
 public:
-  static constexpr std::size_t BlockSize = 16;
+  static constexpr std::size_t BlockSize = 16; ///< at most OccluderBatch::Most
 
   /// A block of spheres, seen along a direction.
   struct Projection

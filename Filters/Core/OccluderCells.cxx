@@ -8,20 +8,22 @@ namespace po
 {
 namespace
 {
-constexpr float CellWidth = 4;    ///< in reaches
-constexpr float MostCells = 64;   ///< along a side
+constexpr float CellWidth = 4;    ///< in radii of a receiver halfway between the extremes
+constexpr float MostCells = 128;  ///< along a side
 constexpr float WideOccluder = 4; ///< radius in cells from which on an occluder is wide
 constexpr float Infinity = HUGE_VALF;
 }
 
-void OccluderCells::begin(const DepthTile& tile, float reach)
+void OccluderCells::begin(const DepthTile& tile, const SweepScene::Band& band)
 {
+  const float reach = band.largestRadius;
   // Halo spheres, with centres up to two reaches outside, look into the cells too.
   const float width = tile.width + 4 * reach;
+  const float typical = 0.5f * (band.smallestRadius + band.largestRadius);
   reach_ = reach;
   lowX_ = tile.x - 2 * reach;
   lowY_ = tile.y - 2 * reach;
-  cell_ = std::max(CellWidth * reach, width / MostCells);
+  cell_ = std::max(CellWidth * typical, width / MostCells);
   perCell_ = 1 / cell_;
   side_ = static_cast<int>(std::ceil(width / cell_));
   heads_.assign(
@@ -32,7 +34,8 @@ void OccluderCells::begin(const DepthTile& tile, float reach)
 
 int OccluderCells::cellIndex(float offset) const
 {
-  return std::clamp(static_cast<int>(offset * perCell_), 0, side_ - 1);
+  // Clamped before it is an integer: a large sphere may reach beyond all of them.
+  return static_cast<int>(std::clamp(offset * perCell_, 0.0f, static_cast<float>(side_ - 1)));
 }
 
 void OccluderCells::append(int& head, const ProjectedSphere& sphere)

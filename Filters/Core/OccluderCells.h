@@ -18,8 +18,8 @@ class OccluderCells
 {
 public:
   /// Empties the cells and lays them over a tile.
-  /// @param reach the largest radius of a receiver
-  void begin(const DepthTile& tile, float reach);
+  /// @param band of the receivers
+  void begin(const DepthTile& tile, const SweepScene::Band& band);
 
   /// Occluders come from the light downward.
   void insert(const ProjectedSphere& sphere);

@@ -2,9 +2,12 @@
 #include "OcclusionBaker.h"
 
 #include "Dilation.h"
+#include "Random.h"
 #include "TexelMap.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <numeric>
 
 namespace po
@@ -39,11 +42,12 @@ public:
     }
   }
 
-  void finish(BakeResult& result)
+  void finish(BakeResult& result, const ProcessGroup& group)
   {
     result.rowOf = std::move(rowOf_);
     result.mean = std::move(mean_);
-    result.table = encode(std::move(table_), settings_.encoding, result.rowOf);
+    const double maximum = group.largest(table_.largestValue());
+    result.table = encode(std::move(table_), settings_.encoding, result.rowOf, maximum);
     result.counters.texturesStored = static_cast<std::uint64_t>(result.table.rows);
     result.counters.particlesDark =
       static_cast<std::uint64_t>(std::count(result.mean.begin(), result.mean.end(), 0.0f));
@@ -144,11 +148,21 @@ SphereSet joined(const SphereCloud& cloud, const Occluders& occluders)
 constexpr double BytesPerSphere = 300;
 }
 
-BakeScene::BakeScene(const SphereCloud& sphereCloud, const Occluders& occluders)
+BakeScene::BakeScene(
+  const SphereCloud& sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
   : cloud(sphereCloud)
   , rays(joined(sphereCloud, occluders), occluders.mesh)
   , overlaps(rays.set())
+  , group(processes)
 {
+}
+
+std::uint64_t BakeScene::randomKey(unsigned particle) const
+{
+  std::array<std::uint64_t, 2> words{};
+  static_assert(sizeof(words) == sizeof(Sphere));
+  std::memcpy(words.data(), &cloud.spheres[particle], sizeof(words));
+  return mixBits(words[0] + 0x9E3779B97F4A7C15ull * mixBits(words[1]));
 }
 
 void BakeCounters::add(const BakeCounters& other)
@@ -167,6 +181,21 @@ void BakeCounters::add(const BakeCounters& other)
   directionsBlack += other.directionsBlack;
 }
 
+BakeCounters BakeCounters::summed(const ProcessGroup& group) const
+{
+  BakeCounters all = *this;
+  for (std::uint64_t* number : { &all.particles, &all.texels, &all.rays, &all.samplesInside,
+         &all.texelsInside, &all.particlesBuried, &all.particlesAlone, &all.particlesDark,
+         &all.texturesStored, &all.spheresClosed, &all.spheresNeverSeen })
+  {
+    *number = group.sum(*number);
+  }
+  all.directionsBlack =
+    static_cast<std::uint64_t>(group.largest(static_cast<double>(directionsBlack)));
+  all.threads = static_cast<unsigned>(group.sum(std::uint64_t(threads)));
+  return all;
+}
+
 double bakeMemory(
   std::size_t particles, const BakeSettings& settings, const OcclusionEstimator& estimator)
 {
@@ -178,20 +207,26 @@ double bakeMemory(
     (BytesPerSphere + texels * (bytesPerTexel + estimator.bytesPerTexel()));
 }
 
-double occluderMemory(const Occluders& occluders)
+double occluderMemory(std::size_t spheres, std::size_t triangles)
 {
   // The hierarchy while it is built, and the mesh itself: measured below 220 bytes a triangle.
   constexpr double bytesPerTriangle = 250;
-  return static_cast<double>(occluders.spheres.size()) * BytesPerSphere +
-    static_cast<double>(occluders.mesh.triangles.size()) * bytesPerTriangle;
+  return static_cast<double>(spheres) * BytesPerSphere +
+    static_cast<double>(triangles) * bytesPerTriangle;
 }
 
 BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
   const OcclusionEstimator& estimator, Progress& progress)
 {
+  std::vector<unsigned> all(scene.receivers());
+  std::iota(all.begin(), all.end(), 0u);
+  return bakeOcclusion(scene, all, settings, estimator, progress);
+}
+
+BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress)
+{
   BakeResult result;
-  std::vector<unsigned> particles(scene.receivers());
-  std::iota(particles.begin(), particles.end(), 0u);
   TextureCollector collector(settings, particles.size());
   estimator.estimate(
     scene, particles, settings, progress, [&](const RawTextures& raw) { collector.add(raw); },
@@ -199,7 +234,7 @@ BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
   result.aborted = progress.aborted();
   if (!result.aborted)
   {
-    collector.finish(result);
+    collector.finish(result, scene.group);
   }
   return result;
 }

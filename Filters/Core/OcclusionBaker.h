@@ -11,7 +11,7 @@
 
 namespace po
 {
-/// The textures of a cloud. Vectors are in the order of the cloud's spheres.
+/// The textures of particles. Vectors are in the order in which these were listed.
 struct BakeResult
 {
   EncodedTable table;
@@ -27,13 +27,19 @@ struct BakeResult
 [[nodiscard]] double bakeMemory(
   std::size_t particles, const BakeSettings& settings, const OcclusionEstimator& estimator);
 
-/// The same of what only occludes.
-[[nodiscard]] double occluderMemory(const Occluders& occluders);
+/// The same of what only occludes: particles of other processes, and occluders.
+[[nodiscard]] double occluderMemory(std::size_t spheres, std::size_t triangles);
 
-/// Bakes the visibility of the background onto all particles of a scene, in parallel.
+/// Bakes the visibility of the background onto the listed particles of a scene, in parallel.
 ///
-/// The same input, settings and seed give the same bits for any number of threads.
-/// Throws std::runtime_error or std::bad_alloc when memory or Embree fails.
+/// The same input, settings and seed give the same bits for any number of threads. The counters are
+/// those of this process; the table's maximum is that of all processes.
+/// Throws std::runtime_error or std::bad_alloc when memory or Embree fails, and WorkStopped.
+[[nodiscard]] BakeResult bakeOcclusion(const BakeScene& scene,
+  const std::vector<unsigned>& particles, const BakeSettings& settings,
+  const OcclusionEstimator& estimator, Progress& progress);
+
+/// The same for all particles.
 [[nodiscard]] BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
   const OcclusionEstimator& estimator, Progress& progress);
 }

@@ -5,6 +5,7 @@
 #include "BakeSettings.h"
 #include "OccluderMesh.h"
 #include "OverlapFinder.h"
+#include "ProcessGroup.h"
 #include "Progress.h"
 #include "SphereCloud.h"
 #include "SphereScene.h"
@@ -20,16 +21,25 @@ namespace po
 ///
 /// Spheres are numbered through: first the particles, which receive, then the occluders' spheres,
 /// which only cast. Light stops at both, and both bury what lies inside of them.
+///
+/// Where several processes bake together, each has a scene of all particles that matter to its own,
+/// and lists its own when it asks an estimator.
 struct BakeScene
 {
-  explicit BakeScene(const SphereCloud& cloud, const Occluders& occluders = {});
+  explicit BakeScene(const SphereCloud& cloud, const Occluders& occluders = {},
+    const ProcessGroup& group = ProcessGroup::alone());
 
   /// Number of particles; also the number of the first sphere that is none.
   [[nodiscard]] std::size_t receivers() const { return cloud.spheres.size(); }
 
-  const SphereCloud& cloud; ///< the particles alone
-  SphereScene rays;         ///< all spheres, and the triangles
-  OverlapFinder overlaps;   ///< of all spheres
+  /// A number that stands for a particle in the choice of random numbers. It depends on the sphere
+  /// alone: a particle keeps its noise, whatever it is read after and whoever bakes it.
+  [[nodiscard]] std::uint64_t randomKey(unsigned particle) const;
+
+  const SphereCloud& cloud;  ///< the particles alone
+  SphereScene rays;          ///< all spheres, and the triangles
+  OverlapFinder overlaps;    ///< of all spheres
+  const ProcessGroup& group; ///< who bakes together
 };
 
 /// What was done and what could be skipped.
@@ -50,6 +60,9 @@ struct BakeCounters
   unsigned threads = 0;               ///< threads that took part
 
   void add(const BakeCounters& other);
+
+  /// Of all processes. A direction that is black is so for all of them.
+  [[nodiscard]] BakeCounters summed(const ProcessGroup& group) const;
 };
 
 /// Textures of consecutive particles as an estimator finds them, before dilation and encoding.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 namespace po
 {
@@ -50,6 +51,7 @@ struct Query
 struct OverlapQuery : Query
 {
   Overlaps* result;
+  bool outOfMemory; ///< Embree would swallow the exception, and overlaps would be missing
 };
 
 /// How a sphere of radius `radius`, at `d` from one of radius r, cuts the surface of that one. A
@@ -78,13 +80,20 @@ void addOverlap(double r, Vec3d d, double radius, Overlaps& result)
 
 bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
 {
-  const auto* query = static_cast<const OverlapQuery*>(arguments->userPtr);
+  auto* query = static_cast<OverlapQuery*>(arguments->userPtr);
   const unsigned other = query->found(arguments);
   if (other != query->id)
   {
     const std::vector<Sphere>& spheres = query->spheres->spheres();
-    addOverlap(
-      spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
+    try
+    {
+      addOverlap(
+        spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
+    }
+    catch (const std::bad_alloc&)
+    {
+      query->outOfMemory = true;
+    }
   }
   return false; // the radius of the query did not change
 }
@@ -156,7 +165,7 @@ bool isWithin(const Brick& brick, Vec3d point, double reach)
 
 OverlapFinder::OverlapFinder(const SphereSet& spheres)
   : spheres_(&spheres)
-  , device_(makeDevice())
+  , device_(makeDevice(spheres.size()))
 {
   for (const Brick& brick : spheres.bricks())
   {
@@ -167,15 +176,15 @@ OverlapFinder::OverlapFinder(const SphereSet& spheres)
 
 void OverlapFinder::addBoxes(const Brick& brick)
 {
-  scenes_.emplace_back(rtcNewScene(device_.get()));
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(brick.count));
-  rtcSetGeometryUserData(geometry, const_cast<Sphere*>(brick.spheres));
+  scenes_.push_back(makeScene(device_.get()));
+  const GeometryHandle geometry =
+    makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER, "EMBREE_GEOMETRY_USER");
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(brick.count));
+  rtcSetGeometryUserData(geometry.get(), const_cast<Sphere*>(brick.spheres));
   rtcSetGeometryBoundsFunction(
-    geometry, [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scenes_.back().get(), geometry);
-  rtcReleaseGeometry(geometry);
+    geometry.get(), [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(scenes_.back().get(), geometry.get());
   rtcCommitScene(scenes_.back().get());
 }
 
@@ -214,14 +223,19 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
 {
   result.buried = false;
   result.caps.clear();
-  OverlapQuery query{ {}, &result };
+  OverlapQuery query{ {}, &result, false };
   search(id, spheres_->spheres()[id].radius, visitNeighbour, query);
+  if (query.outOfMemory)
+  {
+    throw std::bad_alloc();
+  }
 }
 
 void OverlapFinder::findNear(
   unsigned id, float reach, std::size_t limit, std::vector<Neighbour>& result) const
 {
   result.clear();
+  result.reserve(std::min(limit, spheres_->size())); // so that visitNear allocates nothing
   NearQuery query{ {}, reach, limit, &result };
   search(id, spheres_->spheres()[id].radius + reach, visitNear, query);
   std::sort_heap(result.begin(), result.end());

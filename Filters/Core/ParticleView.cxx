@@ -190,20 +190,20 @@ bool ParticleView::hideBehindNear(const SharedDirection& direction, GroupMask* m
   for (std::size_t block = 0; block < near_.blocks(); ++block)
   {
     near_.project(block, direction, projected);
+    OccluderBatch occluders;
     for (std::size_t i = 0; i < NearSpheres::BlockSize; ++i)
     {
-      if (projected.meets[i] == 0)
+      if (projected.meets[i] != 0)
       {
-        continue;
+        occluders.add(
+          { projected.a[i], projected.b[i], projected.height[i], near_.squaredRadius(block, i) });
       }
-      const Occluder occluder{ projected.a[i], projected.b[i], projected.height[i],
-        near_.squaredRadius(block, i) };
-      const bool open = bounded ? hideTexelsWithin(direction.facing, occluder, reach_, mask)
-                                : hideTexels(direction.facing, occluder, mask);
-      if (!open)
-      {
-        return false;
-      }
+    }
+    const bool open = bounded ? hideTexelsWithin(direction.facing, occluders, reach_, mask)
+                              : hideTexels(direction.facing, occluders, mask);
+    if (!open)
+    {
+      return false;
     }
   }
   return true;

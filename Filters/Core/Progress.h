@@ -14,15 +14,17 @@ namespace po
 /// Progress and abort of a long, parallel computation.
 ///
 /// Workers of any thread call advance() often. The report is only ever called on the thread that
-/// made the object (user interfaces ask for that), at most every 50 ms.
+/// made the object (user interfaces ask for that), at most once an interval.
 class Progress
 {
 public:
   /// Takes the share of the work that is done, 0 to 1; returns false to stop the computation.
   using Report = std::function<bool(double)>;
 
-  explicit Progress(Report report = {})
+  explicit Progress(
+    Report report = {}, std::chrono::milliseconds interval = std::chrono::milliseconds(50))
     : report_(std::move(report))
+    , interval_(interval)
   {
   }
 
@@ -52,7 +54,7 @@ private:
   void reportNowAndThen(std::uint64_t done)
   {
     const auto now = Clock::now();
-    if (now - reported_ < std::chrono::milliseconds(50))
+    if (now - reported_ < interval_)
     {
       return;
     }
@@ -65,6 +67,7 @@ private:
   }
 
   Report report_;
+  std::chrono::milliseconds interval_;
   std::thread::id owner_ = std::this_thread::get_id();
   Clock::time_point reported_ = Clock::now();
   std::uint64_t total_ = 0;

@@ -106,8 +106,8 @@ int ReferenceRays::makeRays(unsigned id, int row, int column, Workspace& work) c
   const int resolution = settings_.textureResolution;
   const TexelPatch patch(resolution, row, column);
   const int shared = rows_[static_cast<std::size_t>(row)].sharedColumns;
-  Random random(settings_.seed, static_cast<std::uint64_t>(scene_.cloud.sourceIds[id]),
-    texelIndex(resolution, row, column - column % shared));
+  Random random(
+    settings_.seed, scene_.randomKey(id), texelIndex(resolution, row, column - column % shared));
 
   // A texel of which little is outside would be left with few rays, and show as a noisy rim of the
   // overlap: it gets further sets. Where to stop depends on the geometry alone, so there is no

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace po
 {
@@ -17,24 +18,73 @@ constexpr double LargestLocalLength = 1e18;
 /// Radii below this square to zero in single precision.
 constexpr double SmallestLocalRadius = 1e-18;
 
-/// What the usable particles span.
+/// Where particles are and how large they may be. Kept by process, then joined.
 struct Extent
 {
   Vec3d low{ +HUGE_VAL, +HUGE_VAL, +HUGE_VAL };
   Vec3d high{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  double smallest = HUGE_VAL; ///< radius
-  double largest = 0;
+  double largestRadius = 0;
+  double smallestRadius = HUGE_VAL;
 
   void include(Vec3d p, double radius)
   {
     low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
     high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
-    smallest = std::min(smallest, radius);
-    largest = std::max(largest, radius);
+    largestRadius = std::max(largestRadius, radius);
+    smallestRadius = std::min(smallestRadius, radius);
+  }
+
+  void join(const ProcessGroup& group)
+  {
+    for (double* number : { &high.x, &high.y, &high.z, &largestRadius })
+    {
+      *number = group.largest(*number);
+    }
+    for (double* number : { &low.x, &low.y, &low.z, &smallestRadius })
+    {
+      *number = -group.largest(-*number);
+    }
   }
 
   /// Halves before adding, so that the sum of two huge coordinates stays finite.
   [[nodiscard]] Vec3d middle() const { return 0.5 * low + 0.5 * high; }
+};
+
+/// The mean of radii, summed as integers: exact to 2^-62 of the largest, so that neither the order
+/// nor the processes they are on matter, and without overflow.
+class MeanRadius
+{
+public:
+  explicit MeanRadius(double largest)
+    : exponent_(std::ilogb(largest) + 1)
+  {
+  }
+
+  void include(double radius)
+  {
+    const auto fraction = static_cast<std::uint64_t>(std::scalbn(radius, Bits - exponent_));
+    upper_ += fraction >> HalfBits;
+    lower_ += fraction & ((std::uint64_t(1) << HalfBits) - 1);
+    ++count_;
+  }
+
+  /// Of all processes.
+  [[nodiscard]] double get(const ProcessGroup& group) const
+  {
+    const auto upper = static_cast<double>(group.sum(upper_));
+    const auto lower = static_cast<double>(group.sum(lower_));
+    const auto count = static_cast<double>(group.sum(count_));
+    return std::scalbn((std::scalbn(upper, HalfBits) + lower) / count, exponent_ - Bits);
+  }
+
+private:
+  static constexpr int Bits = 62;
+  static constexpr int HalfBits = 31;
+
+  int exponent_; ///< of a power of two above all radii
+  std::uint64_t upper_ = 0;
+  std::uint64_t lower_ = 0;
+  std::uint64_t count_ = 0;
 };
 
 /// Counts the particle under the first reason that makes it unusable; true if there is none.
@@ -90,53 +140,28 @@ void addCenters(SphereCloud& cloud, const std::function<Vec3d(std::size_t)>& pos
   }
 }
 
-/// Calls use(position, radius) for all usable particles.
-template <typename Use>
-void forEachUsable(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt, const Use& use)
+/// Visits usable particles that are no ghosts.
+template <typename Visit>
+void forEachOwned(const ParticleSource& source, const Visit& visit)
 {
   RejectedParticles ignored;
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < source.count; ++i)
   {
-    const Vec3d position = positionAt(i);
-    const double radius = radiusAt(i);
-    if (accept(position, radius, ignored))
+    const Vec3d position = source.positionAt(i);
+    const double radius = source.radiusAt(i);
+    if (accept(position, radius, ignored) && !(source.isGhost && source.isGhost(i)))
     {
-      use(position, radius);
+      visit(position, radius);
     }
   }
 }
 
-/// The mean of radii, as whole parts of the largest one: such a sum depends on no order, and cannot
-/// overflow.
-class RadiusMean
-{
-public:
-  explicit RadiusMean(double largest)
-    : largest_(largest)
-  {
-  }
-  void add(double radius)
-  {
-    const auto parts = static_cast<std::uint64_t>(std::llround(radius / largest_ * 0x1p52));
-    high_ += parts >> 26;
-    low_ += parts & ((1u << 26) - 1);
-    ++count_;
-  }
-  [[nodiscard]] double get() const
-  {
-    const double sum = static_cast<double>(high_) * 0x1p26 + static_cast<double>(low_);
-    return sum * 0x1p-52 / static_cast<double>(count_) * largest_;
-  }
-
-private:
-  double largest_;
-  std::uint64_t high_ = 0, low_ = 0; ///< the sum: 26 bits of each radius, exactly
-  std::uint64_t count_ = 0;
-};
-
 double medianOf(std::vector<double>& values)
 {
+  if (values.empty())
+  {
+    return -HUGE_VAL;
+  }
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -145,19 +170,18 @@ double medianOf(std::vector<double>& values)
 /// Does all that was included fit floats relative to the frame of a cloud?
 bool fitsFrame(const SphereCloud& cloud, const Extent& extent)
 {
-  const double margin = extent.largest / cloud.scale;
+  const double margin = extent.largestRadius / cloud.scale;
   return fitsFloat(cloud.toLocal(extent.low), margin) &&
     fitsFloat(cloud.toLocal(extent.high), margin) &&
-    extent.smallest / cloud.scale > SmallestLocalRadius;
+    extent.smallestRadius / cloud.scale > SmallestLocalRadius;
 }
 
-/// A frame that a few absurd particles cannot spoil for the others.
-void useMedians(SphereCloud& cloud, std::size_t count,
-  const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt)
+/// A frame that a few absurd particles cannot spoil for the others: the medians, of several
+/// processes the largest ones.
+void useMedians(SphereCloud& cloud, const ParticleSource& source, const ProcessGroup& group)
 {
   std::vector<double> x, y, z, radii;
-  forEachUsable(count, positionAt, radiusAt,
+  forEachOwned(source,
     [&](Vec3d position, double radius)
     {
       x.push_back(position.x);
@@ -165,32 +189,43 @@ void useMedians(SphereCloud& cloud, std::size_t count,
       z.push_back(position.z);
       radii.push_back(radius);
     });
-  cloud.origin = { medianOf(x), medianOf(y), medianOf(z) };
-  cloud.scale = medianOf(radii);
+  cloud.origin = { group.largest(medianOf(x)), group.largest(medianOf(y)),
+    group.largest(medianOf(z)) };
+  cloud.scale = group.largest(medianOf(radii));
 }
 
-/// Chooses the middle and the mean radius of the usable particles, or, where some of them would not
-/// fit, the medians; no sphere is made.
-SphereCloud emptyCloudAround(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt)
+/// Chooses the middle and the mean radius, or, where some particles would not fit, the medians; no
+/// sphere is made.
+SphereCloud emptyCloudAround(const ParticleSource& source, const ProcessGroup& group)
 {
   SphereCloud cloud;
   Extent extent;
-  forEachUsable(count, positionAt, radiusAt,
-    [&](Vec3d position, double radius) { extent.include(position, radius); });
-  if (extent.largest > 0)
+  forEachOwned(source, [&](Vec3d position, double radius) { extent.include(position, radius); });
+  extent.join(group);
+  if (extent.largestRadius > 0)
   {
-    RadiusMean mean(extent.largest);
-    forEachUsable(count, positionAt, radiusAt, [&](Vec3d, double radius) { mean.add(radius); });
+    MeanRadius mean(extent.largestRadius);
+    forEachOwned(source, [&](Vec3d, double radius) { mean.include(radius); });
     cloud.origin = extent.middle();
-    cloud.scale = mean.get();
+    cloud.scale = mean.get(group);
     if (!fitsFrame(cloud, extent))
     {
-      useMedians(cloud, count, positionAt, radiusAt);
+      useMedians(cloud, source, group);
     }
   }
   return cloud;
 }
+}
+
+RejectedParticles RejectedParticles::summed(const ProcessGroup& group) const
+{
+  RejectedParticles all = *this;
+  for (std::size_t* number :
+    { &all.nonFinitePosition, &all.nonFiniteRadius, &all.nonPositiveRadius, &all.outOfRange })
+  {
+    *number = group.sum(std::uint64_t(*number));
+  }
+  return all;
 }
 
 bool SphereCloud::inRange(Vec3d local)
@@ -198,27 +233,32 @@ bool SphereCloud::inRange(Vec3d local)
   return isFinite(local) && isWithin(local, 0);
 }
 
+SphereCloud makeSphereCloud(const ParticleSource& source, const ProcessGroup& group)
+{
+  return makeSphereCloudLike(emptyCloudAround(source, group), source);
+}
+
 SphereCloud makeSphereCloud(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,
   const std::function<double(std::size_t)>& radiusAt)
 {
-  return makeSphereCloudLike(
-    emptyCloudAround(count, positionAt, radiusAt), count, positionAt, radiusAt);
+  return makeSphereCloud(ParticleSource{ count, positionAt, radiusAt, {} });
 }
 
-SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
-  const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt)
+SphereCloud makeSphereCloudLike(const SphereCloud& other, const ParticleSource& source)
 {
   SphereCloud cloud;
+  RejectedParticles ignored; // ghosts count where they are at home
   cloud.origin = other.origin;
   cloud.scale = other.scale;
-  cloud.spheres.reserve(count);
-  cloud.sourceIds.reserve(count);
-  for (std::size_t i = 0; i < count; ++i)
+  cloud.spheres.reserve(source.count);
+  cloud.sourceIds.reserve(source.count);
+  for (std::size_t i = 0; i < source.count; ++i)
   {
-    const Vec3d position = positionAt(i);
-    const double radius = radiusAt(i);
-    if (!accept(position, radius, cloud.rejected))
+    const Vec3d position = source.positionAt(i);
+    const double radius = source.radiusAt(i);
+    const bool ghost = source.isGhost && source.isGhost(i);
+    RejectedParticles& rejected = ghost ? ignored : cloud.rejected;
+    if (!accept(position, radius, rejected))
     {
       continue;
     }
@@ -226,16 +266,20 @@ SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
     const double localRadius = radius / cloud.scale;
     if (!fitsFloat(local, localRadius))
     {
-      ++cloud.rejected.outOfRange;
+      ++rejected.outOfRange;
       continue;
     }
     const Vec3f center = local.as<float>();
     cloud.spheres.push_back({ center.x, center.y, center.z, static_cast<float>(localRadius) });
     cloud.sourceIds.push_back(static_cast<std::int64_t>(i));
+    if (source.isGhost)
+    {
+      cloud.ghosts.push_back(ghost ? 1 : 0);
+    }
   }
   if (isWide(cloud.spheres))
   {
-    addCenters(cloud, positionAt);
+    addCenters(cloud, source.positionAt);
   }
   return cloud;
 }

@@ -2,6 +2,7 @@
 #ifndef po_SphereCloud_h
 #define po_SphereCloud_h
 
+#include "ProcessGroup.h"
 #include "Sphere.h"
 
 #include <cstddef>
@@ -23,6 +24,9 @@ struct RejectedParticles
   {
     return nonFinitePosition + nonFiniteRadius + nonPositiveRadius + outOfRange;
   }
+
+  /// Of all processes.
+  [[nodiscard]] RejectedParticles summed(const ProcessGroup& group) const;
 };
 
 /// Spheres made ready for single-precision ray tracing.
@@ -39,6 +43,9 @@ struct SphereCloud
   std::vector<Sphere> spheres; ///< the usable spheres, in input order, local
   std::vector<Vec3d> centers;  ///< theirs in full, local, where floats are too coarse; or empty
   std::vector<std::int64_t> sourceIds; ///< index of each sphere in the input
+  /// Flags by sphere: copies of particles that another process, or another block, has. Empty where
+  /// nobody asked.
+  std::vector<std::uint8_t> ghosts;
   RejectedParticles rejected;
 
   /// Is a point of these local coordinates near enough for ray tracing in floats?
@@ -53,16 +60,26 @@ struct SphereCloud
   [[nodiscard]] Vec3d toWorld(Vec3d local) const { return origin + scale * local; }
 };
 
-/// Gathers the usable ones of `count` particles.
-///
-/// @param positionAt world position of particle i
-/// @param radiusAt world radius of particle i, any number (what cannot be a sphere is rejected)
-[[nodiscard]] SphereCloud makeSphereCloud(std::size_t count,
-  const std::function<Vec3d(std::size_t)>& positionAt,
-  const std::function<double(std::size_t)>& radiusAt);
+/// Particles as they come: functions of their index, below `count`.
+struct ParticleSource
+{
+  std::size_t count;
+  std::function<Vec3d(std::size_t)> positionAt;  ///< in the world
+  std::function<double(std::size_t)> radiusAt;   ///< in the world; any number
+  std::function<bool(std::size_t)> isGhost = {}; ///< see SphereCloud::ghosts; empty: none is
+};
+
+/// Gathers the usable particles. Origin and scale are those of all particles of the group together,
+/// ghosts aside, with the same bits however these are distributed and ordered.
+[[nodiscard]] SphereCloud makeSphereCloud(
+  const ParticleSource& source, const ProcessGroup& group = ProcessGroup::alone());
 
 /// The same in the local coordinates of another cloud, for spheres that share a scene with it.
-[[nodiscard]] SphereCloud makeSphereCloudLike(const SphereCloud& other, std::size_t count,
+[[nodiscard]] SphereCloud makeSphereCloudLike(
+  const SphereCloud& other, const ParticleSource& source);
+
+/// The same as makeSphereCloud, without ghosts.
+[[nodiscard]] SphereCloud makeSphereCloud(std::size_t count,
   const std::function<Vec3d(std::size_t)>& positionAt,
   const std::function<double(std::size_t)>& radiusAt);
 }

@@ -61,7 +61,7 @@ void SphereRenderer::setCloud(SphereCloud cloud)
 void SphereRenderer::buildScene()
 {
   const Stopwatch watch(statistics_.buildSeconds);
-  scene_ = std::make_unique<SphereScene>(SphereSet(cloud_.spheres, cloud_.centers));
+  scene_ = scenes_->get(cloud_.spheres, cloud_.centers);
 }
 
 bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)

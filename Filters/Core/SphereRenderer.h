@@ -2,6 +2,7 @@
 #ifndef po_SphereRenderer_h
 #define po_SphereRenderer_h
 
+#include "SceneCache.h"
 #include "Shading.h"
 #include "SphereCloud.h"
 
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace po
@@ -29,6 +31,12 @@ struct RenderStatistics
 class SphereRenderer
 {
 public:
+  /// @param scenes shared with other renderers
+  explicit SphereRenderer(std::shared_ptr<SceneCache> scenes = std::make_shared<SceneCache>())
+    : scenes_(std::move(scenes))
+  {
+  }
+
   /// New spheres; the scene is built when the first frame asks for it.
   void setCloud(SphereCloud cloud);
 
@@ -61,8 +69,9 @@ private:
   void buildScene();
   void castShadows(const std::vector<Light>& lights);
 
+  std::shared_ptr<SceneCache> scenes_;
   SphereCloud cloud_;
-  std::unique_ptr<SphereScene> scene_;
+  std::shared_ptr<const SphereScene> scene_;
   std::optional<PrimaryRays> rays_;
   Camera camera_{};
   Matrix4 modelToWorld_{};

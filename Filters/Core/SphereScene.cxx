@@ -145,14 +145,14 @@ bool mayMeet(const Brick& brick, Vec3d origin, Vec3f direction, double distance)
 }
 
 SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
-  : device_(makeDevice())
+  : device_(makeDevice(set.size() + mesh.triangles.size()))
   , set_(std::move(set))
   , hasMesh_(!mesh.triangles.empty())
   , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(set_))
 {
   for (const Brick& brick : set_.bricks())
   {
-    scenes_.emplace_back(rtcNewScene(device_.get()));
+    scenes_.push_back(makeScene(device_.get()));
     if (brick.count > 0)
     {
       addSpheres(scenes_.back().get(), brick);
@@ -160,7 +160,7 @@ SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
   }
   if (hasMesh_ && scenes_.size() > 1)
   {
-    mesh_.reset(rtcNewScene(device_.get()));
+    mesh_ = makeScene(device_.get());
     addTriangles(mesh_.get(), mesh);
     rtcCommitScene(mesh_.get());
   }
@@ -177,12 +177,8 @@ SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
 
 void SphereScene::addSpheres(RTCScene scene, const Brick& brick)
 {
-  const GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT));
-  if (!geometry)
-  {
-    throw std::runtime_error("This build of Embree has no sphere geometry: "
-                             "it was configured without EMBREE_GEOMETRY_POINT.");
-  }
+  const GeometryHandle geometry =
+    makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT, "EMBREE_GEOMETRY_POINT");
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
     brick.spheres, 0, sizeof(Sphere), brick.count);
   rtcSetGeometryUserData(geometry.get(), const_cast<Brick*>(&brick));
@@ -198,12 +194,8 @@ void SphereScene::addTriangles(RTCScene scene, const OccluderMesh& mesh)
     throw std::runtime_error("This build of Embree sees triangles from one side only: "
                              "it was configured with EMBREE_BACKFACE_CULLING.");
   }
-  const GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  if (!geometry)
-  {
-    throw std::runtime_error("This build of Embree has no triangles: "
-                             "it was configured without EMBREE_GEOMETRY_TRIANGLE.");
-  }
+  const GeometryHandle geometry =
+    makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE, "EMBREE_GEOMETRY_TRIANGLE");
   // Buffers of Embree's own: it reads up to 16 bytes at the last vertex.
   copyBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices);
   copyBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);

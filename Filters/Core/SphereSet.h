@@ -46,6 +46,8 @@ public:
   /// All relative to the origin of the set: coarse where there are several bricks.
   [[nodiscard]] const std::vector<Sphere>& spheres() const { return spheres_; }
 
+  /// In full; empty where those of the spheres are good enough.
+  [[nodiscard]] const std::vector<Vec3d>& centers() const { return centers_; }
   [[nodiscard]] Vec3d center(unsigned id) const
   {
     return centers_.empty() ? spheres_[id].center().as<double>() : centers_[id];

@@ -21,13 +21,10 @@ constexpr int EpochDirections = 4 * static_cast<int>(TexelPatterns::Count);
 
 constexpr std::size_t FirstBlock = 2; ///< axes
 
-/// All spheres take part in the first directions.
-constexpr int FullDirections = 48;
-
-/// After them, spheres that were never seen take part along every fourth axis only. One that shows
-/// along few axes may miss others up to its first sight. With fewer full directions, or all spheres
-/// along every eighth axis, single particles in crevices came out far too dark.
-constexpr std::size_t FullEvery = 4;
+/// All spheres take part in the first directions. After them, spheres that were never seen take
+/// part along one axis of each block only. One that shows along few axes may miss others up to its
+/// first sight: with half as many full directions that is measurable.
+constexpr int FullDirections = 32;
 
 /// Closed cells must spare this share of all visits, or they cost more than they save; more where
 /// offset masks make a visit cheap.
@@ -91,9 +88,10 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset,
   }
   std::vector<AxisJob> jobs;
   std::vector<AxisWeights> weights;
+  const std::size_t full = fullAxis(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i)
   {
-    jobs.push_back(makeJob(axes[i], i));
+    jobs.push_back(makeJob(axes[i], i, i == full));
     weights.push_back(weightsOf(jobs.back()));
     progress.advance((2 - jobs.back().directions.size()) * scene_.size());
   }
@@ -129,10 +127,18 @@ std::size_t SphereSweep::nextPattern()
   return pattern;
 }
 
-SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index)
+/// The axis of a block along which all spheres take part whatever was seen. It is drawn at random:
+/// axes at the same place in their blocks all lie in one band of heights.
+std::size_t SphereSweep::fullAxis(std::size_t axes) const
 {
-  const bool full = directions_ < FullDirections || index % FullEvery == 0 ||
-    std::isfinite(distance_) || !skips_.neverSeen;
+  Random random(mixBits(blocks_), axes, 0);
+  return random.below(static_cast<std::uint32_t>(axes));
+}
+
+SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool always)
+{
+  const bool full =
+    always || directions_ < FullDirections || std::isfinite(distance_) || !skips_.neverSeen;
   AxisJob job{ axis, planeBasis(axis), nextPattern(), full, {} };
   for (const bool upward : { true, false })
   {

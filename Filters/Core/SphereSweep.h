@@ -19,7 +19,7 @@ namespace po
 struct SweepSkips
 {
   bool closedCells = true; ///< spheres under cells that one occluder closes
-  bool neverSeen = true;   ///< spheres that no direction has shown, in three of four directions
+  bool neverSeen = true;   ///< spheres that no direction has shown, in seven of eight directions
   bool offsetMasks = true; ///< tests of equal spheres against each other
   bool blackSky = true;    ///< directions that the background makes black
   bool lonely = true;      ///< spheres outside the bounded distance of any other
@@ -85,7 +85,8 @@ private:
 
   [[nodiscard]] std::size_t blockSize() const;
   void sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset, Progress& progress);
-  [[nodiscard]] AxisJob makeJob(Vec3d axis, std::size_t index);
+  [[nodiscard]] std::size_t fullAxis(std::size_t axes) const;
+  [[nodiscard]] AxisJob makeJob(Vec3d axis, std::size_t index, bool always);
   [[nodiscard]] AxisWeights weightsOf(const AxisJob& job) const;
   void sweepAxis(AxisJob& job, Progress& progress);
   void sweepBand(

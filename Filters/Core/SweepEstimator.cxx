@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace po
 {
@@ -95,13 +96,25 @@ private:
     {
       all.add(error);
     }
+    all = { scene_.group.sum(all.sum), scene_.group.sum(all.area) };
     report_.estimatedError = all.rms();
     report_.reached = excess(report_.estimatedError) <= 1;
   }
 
   /// Whether rays take the particles that are above the target below it at less work than the next
-  /// round of directions would be.
+  /// round of directions would be: of all processes, which must go on alike.
   [[nodiscard]] bool raysAreCheaper(int done, int more) const
+  {
+    const double needed = scene_.group.sum(directionsByRays(done));
+    // With a bounded distance each process sweeps a part of the spheres.
+    const double swept = settings_.maximumDistance > 0
+      ? scene_.group.sum(static_cast<double>(particles_.size()))
+      : static_cast<double>(sweep_.spheres());
+    return RayCost * needed < more * swept;
+  }
+
+  /// Summed over the particles that are above the target; infinite if one asks for too many.
+  [[nodiscard]] double directionsByRays(int done) const
   {
     double needed = 0;
     for (const SquaredError& error : errors_)
@@ -111,14 +124,12 @@ private:
       {
         // Between the D^-1/2 of the worst case and the D^-3/4 of the best.
         const double directions = done * std::pow(factor, 1.5);
-        if (directions > EmbreeEstimator::MaximumDirections)
-        {
-          return false;
-        }
-        needed += directions;
+        needed += directions <= EmbreeEstimator::MaximumDirections
+          ? directions
+          : std::numeric_limits<double>::infinity();
       }
     }
-    return RayCost * needed < static_cast<double>(more) * static_cast<double>(sweep_.spheres());
+    return needed;
   }
 
   void refineByRays(BakeCounters& counters)

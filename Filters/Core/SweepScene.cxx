@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepScene.h"
 
+#include "MortonCurve.h"
+
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <tuple>
 
 namespace po
@@ -42,45 +45,18 @@ struct Place
   }
 };
 
-/// Moves bit i of a number of 21 bits to bit 3 i.
-std::uint64_t spread(std::uint64_t bits)
+/// Through the bounding box of a brick.
+MortonCurve curveThrough(const Brick& brick)
 {
-  bits = (bits | bits << 32) & 0x001F00000000FFFFu;
-  bits = (bits | bits << 16) & 0x001F0000FF0000FFu;
-  bits = (bits | bits << 8) & 0x100F00F00F00F00Fu;
-  bits = (bits | bits << 4) & 0x10C30C30C30C30C3u;
-  return (bits | bits << 2) & 0x1249249249249249u;
+  Vec3f low = brick.spheres->center();
+  Vec3f high = low;
+  for (const Sphere* s = brick.spheres; s != brick.spheres + brick.count; ++s)
+  {
+    low = { std::min(low.x, s->x), std::min(low.y, s->y), std::min(low.z, s->z) };
+    high = { std::max(high.x, s->x), std::max(high.y, s->y), std::max(high.z, s->z) };
+  }
+  return { low, std::max({ high.x - low.x, high.y - low.y, high.z - low.z }) };
 }
-
-/// Maps positions to places along a Morton curve through the bounding box of a brick.
-class MortonCurve
-{
-public:
-  explicit MortonCurve(const Brick& brick)
-    : low_(brick.spheres->center())
-  {
-    Vec3f high = low_;
-    for (const Sphere* at = brick.spheres; at != brick.spheres + brick.count; ++at)
-    {
-      const Sphere& s = *at;
-      low_ = { std::min(low_.x, s.x), std::min(low_.y, s.y), std::min(low_.z, s.z) };
-      high = { std::max(high.x, s.x), std::max(high.y, s.y), std::max(high.z, s.z) };
-    }
-    const float extent = std::max({ high.x - low_.x, high.y - low_.y, high.z - low_.z });
-    scale_ = extent > 0 ? static_cast<float>((1 << 20) - 1) / extent : 0.0f;
-  }
-
-  [[nodiscard]] std::uint64_t operator()(Vec3f p) const
-  {
-    const auto cell = [this](float offset)
-    { return spread(static_cast<std::uint64_t>(offset * scale_)); };
-    return cell(p.x - low_.x) | cell(p.y - low_.y) << 1 | cell(p.z - low_.z) << 2;
-  }
-
-private:
-  Vec3f low_;
-  float scale_;
-};
 
 /// The octave of a radius, counted down from the largest: equal radii must never fall on both sides
 /// of an edge.
@@ -124,7 +100,9 @@ std::vector<Place> sortedPlaces(const SphereSet& set)
     ++counts[octaveOf(s.radius, largest)];
   }
   const std::array<int, 256> bands = bandsOfOctaves(counts);
-  const std::vector<MortonCurve> curves(set.bricks().begin(), set.bricks().end());
+  std::vector<MortonCurve> curves;
+  std::transform(
+    set.bricks().begin(), set.bricks().end(), std::back_inserter(curves), curveThrough);
   std::vector<Place> places(spheres.size());
   for (unsigned i = 0; i < places.size(); ++i)
   {

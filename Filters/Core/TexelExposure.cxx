@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelExposure.h"
 
-#include "TexelMask.h"
+#include "TexelCaps.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace po
@@ -51,30 +52,30 @@ std::vector<std::uint32_t> groupsWithRim(
 }
 }
 
-TexelExposure exposeTexels(
-  const SweepTexels& texels, const TexelPatterns& patterns, const std::vector<BuriedCap>& caps)
+void exposeTexels(const SweepTexels& texels, const TexelPatterns& patterns,
+  const std::vector<BuriedCap>& caps, TexelExposure& result)
 {
   const std::size_t groups = texels.groups();
   std::vector<GroupMask> outside = texels.allBits();
   const std::vector<GroupMask> parts = classify(texels, caps, outside);
-  TexelExposure exposure;
-  exposure.rimGroups = groupsWithRim(parts, outside);
-  exposure.bits.reserve(TexelPatterns::Count * groups);
+  result.rimGroups = groupsWithRim(parts, outside);
+  result.bits.resize(TexelPatterns::Count * groups);
   for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
   {
-    exposure.bits.insert(exposure.bits.end(), outside.begin(), outside.end());
+    std::copy(outside.begin(), outside.end(), result.bits.data() + p * groups);
   }
-  for (std::size_t i = 0; i < caps.size(); ++i)
+  std::vector<RimCap> rims;
+  for (const std::uint32_t g : result.rimGroups)
   {
-    for (const std::uint32_t g : exposure.rimGroups)
+    rims.clear();
+    for (std::size_t i = 0; i < caps.size(); ++i)
     {
       if ((parts[i * groups + g] & outside[g]) != 0)
       {
-        clearCap(patterns, g, caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine),
-          exposure.bits.data() + g, groups);
+        rims.push_back({ caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine) });
       }
     }
+    clearCaps(patterns, g, rims.data(), rims.size(), result.bits.data() + g, groups);
   }
-  return exposure;
 }
 }

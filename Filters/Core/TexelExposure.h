@@ -6,6 +6,7 @@
 #include "SweepTexels.h"
 
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 namespace po
@@ -13,7 +14,13 @@ namespace po
 /// Which points of a particle's texels lie outside all other spheres.
 struct TexelExposure
 {
-  std::vector<GroupMask> bits;          ///< [TexelPatterns::Count][groups]
+  /// @param memory of the bits
+  explicit TexelExposure(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+    : bits(memory)
+  {
+  }
+
+  std::pmr::vector<GroupMask> bits;     ///< [TexelPatterns::Count][groups]
   std::vector<std::uint32_t> rimGroups; ///< those in which patterns may differ
 
   [[nodiscard]] const GroupMask* ofPattern(std::size_t pattern, std::size_t groups) const
@@ -23,8 +30,9 @@ struct TexelExposure
 };
 
 /// Tests the points of all patterns against the caps; a texel that no rim crosses takes one test.
-[[nodiscard]] TexelExposure exposeTexels(
-  const SweepTexels& texels, const TexelPatterns& patterns, const std::vector<BuriedCap>& caps);
+/// @param result is overwritten, and keeps its memory
+void exposeTexels(const SweepTexels& texels, const TexelPatterns& patterns,
+  const std::vector<BuriedCap>& caps, TexelExposure& result);
 }
 
 #endif

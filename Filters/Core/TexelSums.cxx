@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelSums.h"
 
-#include "TexelMask.h"
+#include "MaskedSums.h"
 
 #include <utility>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TextureFormula.h"
 
+#include "MaskedSums.h"
 #include "TexelMap.h"
-#include "TexelMask.h"
 
 #include <algorithm>
 #include <array>

@@ -81,13 +81,24 @@ void encodeBytes(const TextureTable& table, EncodedTable& encoded, std::vector<s
 }
 }
 
+double TextureTable::largestValue() const
+{
+  return values_.empty() ? 0.0 : *std::max_element(values_.begin(), values_.end());
+}
+
 EncodedTable encode(TextureTable&& table, Encoding encoding, std::vector<std::int32_t>& rowOf)
+{
+  const double maximum = table.largestValue();
+  return encode(std::move(table), encoding, rowOf, maximum);
+}
+
+EncodedTable encode(
+  TextureTable&& table, Encoding encoding, std::vector<std::int32_t>& rowOf, double maximum)
 {
   EncodedTable encoded;
   encoded.encoding = encoding;
   encoded.resolution = table.resolution();
-  const std::vector<float>& values = table.values();
-  encoded.maximum = values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+  encoded.maximum = maximum;
   if (encoding == Encoding::Float32Linear)
   {
     encoded.rows = table.rows();

@@ -46,6 +46,8 @@ public:
   [[nodiscard]] std::int32_t rows() const { return rows_; }
   [[nodiscard]] const std::vector<float>& values() const { return values_; }
   [[nodiscard]] std::vector<float> takeValues() { return std::move(values_); }
+  /// 0 of an empty table.
+  [[nodiscard]] double largestValue() const;
 
 private:
   int resolution_;
@@ -61,7 +63,7 @@ struct EncodedTable
   Encoding encoding = Encoding::UInt8Gamma2;
   int resolution = 0;
   std::int32_t rows = 0;
-  double maximum = 0; ///< largest value of the table, the scale of UInt8Gamma2
+  double maximum = 0; ///< the scale of UInt8Gamma2
   std::vector<std::uint8_t> bytes;
   std::vector<float> floats;
 };
@@ -69,8 +71,12 @@ struct EncodedTable
 /// Encodes a table and gives up its values. Textures that become equal by rounding are merged.
 ///
 /// @param rowOf the row of each particle, changed to the rows of the encoded table; negative
-/// entries
-///   (no texture) stay
+/// entries (no texture) stay
+/// @param maximum the scale; at least the table's largest value
+[[nodiscard]] EncodedTable encode(
+  TextureTable&& table, Encoding encoding, std::vector<std::int32_t>& rowOf, double maximum);
+
+/// The same with the table's largest value as scale.
 [[nodiscard]] EncodedTable encode(
   TextureTable&& table, Encoding encoding, std::vector<std::int32_t>& rowOf);
 }

@@ -10,7 +10,7 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
   const SweptDirection& direction, SeenMarks& seen)
 {
   band_ = band;
-  cells_.begin(tile, band.largestRadius);
+  cells_.begin(tile, band);
   if (direction.useClosedCells)
   {
     closed_.begin(tile, band.largestRadius);
@@ -24,9 +24,9 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
     const auto count = static_cast<std::size_t>(slab.last - slab.first);
     for (std::size_t k = 0; k < count; ++k)
     {
-      const std::uint64_t key =
+      const TileSphere& sphere =
         direction.upward ? slab.last[-1 - static_cast<std::ptrdiff_t>(k)] : slab.first[k];
-      if (!visit(tile.first[DepthOrder::place(key)], direction, seen))
+      if (!visit(sphere, direction, seen))
       {
         counters.visits += visited;
         counters.below += tile.size() - visited;
@@ -90,6 +90,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
 bool TileSweep::sees(
   const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
 {
+  records_.prefetch(sphere.index, direction.pattern);
   std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
   if (!passes(cells_.cellOf(sphere), sphere, direction) ||
     !passes(cells_.wide(), sphere, direction) ||

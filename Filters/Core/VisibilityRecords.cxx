@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VisibilityRecords.h"
 
-#include "TexelMask.h"
+#include "MaskedSums.h"
 
+#include <hwy/cache_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -29,9 +30,11 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , order_(order)
   , texels_(texels)
   , seed_(seed)
+  , listed_(listed)
   , patterns_(texels, seed, 0)
   , surface_(order.size())
   , cuts_(order.size())
+  , exposures_(order.size())
   , chunks_((order.size() + ChunkSpheres - 1) / ChunkSpheres)
   , watched_(order.size(), 0)
 {
@@ -39,10 +42,12 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
   open_.pastPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
-  for (std::size_t sphere = 0; sphere < listed.size(); ++sphere)
+  // Particles that are not listed are looked at all the same: what they hide must not depend on who
+  // asks.
+  for (unsigned sphere = 0; sphere < order.size(); ++sphere)
   {
     const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
-    surface_[sphere] = listed[sphere] != 0 ? known : Surface::NotListed;
+    surface_[sphere] = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
   }
   for (const unsigned sphere : watched)
   {
@@ -50,25 +55,32 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   }
 }
 
-VisibilityRecords::~VisibilityRecords()
+void VisibilityRecords::prefetch(unsigned sphere, std::size_t pattern) const
 {
-  std::for_each(chunks_.begin(), chunks_.end(), [](const auto& chunk) { delete chunk.load(); });
+  if (const GroupMask* bits = exposures_[sphere].load(std::memory_order_relaxed))
+  {
+    hwy::Prefetch(bits + pattern * texels_.groups());
+  }
 }
 
 bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask)
 {
-  Surface surface = surface_[sphere].load(std::memory_order_acquire);
-  if (surface == Surface::Unknown)
+  const GroupMask* bits = exposures_[sphere].load(std::memory_order_acquire);
+  if (bits == nullptr)
   {
-    surface = surfaceOf(sphere);
+    Surface surface = surface_[sphere].load(std::memory_order_acquire);
+    if (surface == Surface::Unknown)
+    {
+      surface = surfaceOf(sphere);
+    }
+    if (surface != Surface::Cut)
+    {
+      // What shows of one that only occludes inside others hides nothing that is outside.
+      return surface != Surface::Buried;
+    }
+    bits = exposures_[sphere].load(std::memory_order_acquire);
   }
-  if (surface != Surface::Cut)
-  {
-    // What shows of one that only occludes inside others hides nothing that is outside.
-    return surface != Surface::Buried;
-  }
-  const CutSphere& cut = *cuts_[sphere].load(std::memory_order_relaxed);
-  return intersect(texels_.groups(), cut.exposure.ofPattern(pattern, texels_.groups()), mask);
+  return intersect(texels_.groups(), bits + pattern * texels_.groups(), mask);
 }
 
 VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
@@ -82,28 +94,40 @@ VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
   {
     surface = Surface::Cut;
     // Two threads may make the same at once; both are equal, and one is dropped.
-    std::unique_ptr<CutSphere> made = makeCut(overlaps.caps);
-    CutSphere* known = nullptr;
-    if (cuts_[sphere].compare_exchange_strong(known, made.get(), std::memory_order_acq_rel))
+    std::unique_ptr<CutSphere> made = makeCut(sphere, overlaps.caps);
+    CutSphere* cut = nullptr;
+    if (cuts_[sphere].compare_exchange_strong(cut, made.get(), std::memory_order_acq_rel))
     {
+      cut = made.get();
       ownedCuts_.push_back(std::move(made));
     }
+    // Both publish the bits: the thread that came second may go on before the first one does.
+    exposures_[sphere].store(cut->exposure.bits.data(), std::memory_order_release);
   }
   surface_[sphere].store(surface, std::memory_order_release);
   return surface;
 }
 
-std::unique_ptr<CutSphere> VisibilityRecords::makeCut(const std::vector<BuriedCap>& caps) const
+std::unique_ptr<CutSphere> VisibilityRecords::makeCut(
+  unsigned sphere, const std::vector<BuriedCap>& caps)
 {
-  auto cut = std::make_unique<CutSphere>();
-  cut->caps = caps;
-  cut->exposure = exposeTexels(texels_, patterns_, cut->caps);
+  std::unique_ptr<CutSphere> cut(
+    new CutSphere{ sphere, caps, TexelExposure(memory_.ofThread()), {} });
+  exposeTexels(texels_, patterns_, cut->caps, cut->exposure);
   if (epoch_ > 0)
   {
     cut->pastWeights.assign(cut->exposure.rimGroups.size() * GroupSize, 0.0f);
     addOverPoints(*cut, open_.pastPatterns, cut->pastWeights.data());
   }
   return cut;
+}
+
+float* VisibilityRecords::makeSums(std::size_t count)
+{
+  const std::size_t size = count * texels_.slots();
+  auto* sums = memory_.allocate<float>(size);
+  std::fill(sums, sums + size, 0.0f);
+  return sums;
 }
 
 VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
@@ -114,24 +138,22 @@ VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
   {
     return *known;
   }
-  auto made = std::make_unique<Chunk>();
-  made->sums = std::make_unique<float[]>(ChunkSpheres * texels_.slots());
-  made->masks.reset(new GroupMask[AxesPerBlock * ChunkSpheres * texels_.groups()]);
-  return *(place.compare_exchange_strong(known, made.get(), std::memory_order_acq_rel)
-      ? made.release()
-      : known);
+  // Two threads may make the same at once; both are equal, and one is not used.
+  Chunk* made = new (memory_.allocate<Chunk>(1)) Chunk{ makeSums(ChunkSpheres),
+    memory_.allocate<GroupMask>(AxesPerBlock * ChunkSpheres * texels_.groups()) };
+  return *(place.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 
 void VisibilityRecords::keep(unsigned sphere, std::size_t axis, const GroupMask* mask)
 {
-  if (surface_[sphere].load(std::memory_order_relaxed) == Surface::NotListed)
+  if (listed_[sphere] == 0)
   {
     return;
   }
   Chunk& chunk = findOrMakeChunk(sphere);
   const std::size_t place = sphere % ChunkSpheres;
   const std::size_t groups = texels_.groups();
-  GroupMask* kept = chunk.masks.get() + (axis * ChunkSpheres + place) * groups;
+  GroupMask* kept = chunk.masks + (axis * ChunkSpheres + place) * groups;
   if (chunk.seen[axis][place] == 0)
   {
     chunk.seen[axis][place] = 1;
@@ -180,7 +202,7 @@ void VisibilityRecords::addChunk(
       if (chunk.seen[k][place] != 0)
       {
         chunk.seen[k][place] = 0;
-        terms[count++] = { chunk.masks.get() + (k * ChunkSpheres + place) * groups,
+        terms[count++] = { chunk.masks + (k * ChunkSpheres + place) * groups,
           axes[k].weight.data() };
       }
     }
@@ -189,15 +211,12 @@ void VisibilityRecords::addChunk(
       continue;
     }
     chunk.everSeen[place] = 1;
-    addMasked(groups, terms.data(), count, chunk.sums.get() + place * texels_.slots());
+    addMasked(groups, terms.data(), count, chunk.sums + place * texels_.slots());
     if (watched_[index * ChunkSpheres + place] != 0)
     {
-      std::unique_ptr<float[]>& sums = chunk.subsets[place];
-      if (!sums)
-      {
-        sums = std::make_unique<float[]>(ErrorSubsets * texels_.slots());
-      }
-      addMasked(groups, terms.data(), count, sums.get() + subset * texels_.slots());
+      float*& sums = chunk.subsets[place];
+      sums = sums != nullptr ? sums : makeSums(ErrorSubsets);
+      addMasked(groups, terms.data(), count, sums + subset * texels_.slots());
     }
   }
 }
@@ -223,7 +242,7 @@ void VisibilityRecords::nextEpoch()
       CutSphere& cut = *ownedCuts_[i];
       cut.pastWeights.resize(cut.exposure.rimGroups.size() * GroupSize, 0.0f);
       addOverPoints(cut, open_.latestPatterns, cut.pastWeights.data());
-      cut.exposure = exposeTexels(texels_, patterns_, cut.caps);
+      exposeTexels(texels_, patterns_, cut.caps, cut.exposure);
     });
   std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(), open_.latestPatterns.begin(),
     open_.pastPatterns.begin(), std::plus<>());
@@ -243,7 +262,7 @@ const float* VisibilityRecords::sums(unsigned sphere) const
     return open_.total.data();
   }
   const Chunk* chunk = chunkIfSeen(sphere);
-  return chunk != nullptr ? chunk->sums.get() + sphere % ChunkSpheres * texels_.slots() : nullptr;
+  return chunk != nullptr ? chunk->sums + sphere % ChunkSpheres * texels_.slots() : nullptr;
 }
 
 const float* VisibilityRecords::subsetSums(unsigned sphere) const
@@ -253,7 +272,7 @@ const float* VisibilityRecords::subsetSums(unsigned sphere) const
     return open_.subsets.data();
   }
   const Chunk* chunk = chunkIfSeen(sphere);
-  return chunk != nullptr ? chunk->subsets[sphere % ChunkSpheres].get() : nullptr;
+  return chunk != nullptr ? chunk->subsets[sphere % ChunkSpheres] : nullptr;
 }
 
 const CutSphere* VisibilityRecords::cut(unsigned sphere) const
@@ -290,13 +309,23 @@ bool VisibilityRecords::isAlone(unsigned sphere) const
   return surface_[sphere].load(std::memory_order_relaxed) == Surface::Alone;
 }
 
+std::uint64_t VisibilityRecords::countListed(Surface surface) const
+{
+  std::uint64_t count = 0;
+  for (std::size_t sphere = 0; sphere < listed_.size(); ++sphere)
+  {
+    count += listed_[sphere] != 0 && surface_[sphere].load(std::memory_order_relaxed) == surface;
+  }
+  return count;
+}
+
 std::uint64_t VisibilityRecords::alone() const
 {
-  return static_cast<std::uint64_t>(std::count(surface_.begin(), surface_.end(), Surface::Alone));
+  return countListed(Surface::Alone);
 }
 
 std::uint64_t VisibilityRecords::buried() const
 {
-  return static_cast<std::uint64_t>(std::count(surface_.begin(), surface_.end(), Surface::Buried));
+  return countListed(Surface::Buried);
 }
 }

@@ -3,6 +3,7 @@
 #define po_VisibilityRecords_h
 
 #include "OcclusionEstimator.h"
+#include "RecordMemory.h"
 #include "SweepScene.h"
 #include "SweepTexels.h"
 #include "TexelExposure.h"
@@ -24,6 +25,7 @@ inline constexpr std::size_t AxesPerBlock = 8;
 /// What a sweep needs to know of a sphere that others overlap.
 struct CutSphere
 {
+  unsigned sphere; ///< its index in the SweepScene
   std::vector<BuriedCap> caps;
   TexelExposure exposure;
   std::vector<float>
@@ -56,19 +58,21 @@ struct OpenWeights
 class VisibilityRecords
 {
 public:
-  /// @param listed flags by sphere: whose visibility is asked for; others only occlude
+  /// @param listed flags by sphere: whose visibility is asked for
   /// @param alone flags by sphere: known to be open all over
   /// @param watched the spheres that error bars come from
   VisibilityRecords(const BakeScene& scene, const SweepScene& order, const SweepTexels& texels,
     std::uint64_t seed, const std::vector<std::uint8_t>& listed,
     const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched);
-  ~VisibilityRecords();
   VisibilityRecords(const VisibilityRecords&) = delete;
   VisibilityRecords& operator=(const VisibilityRecords&) = delete;
 
   [[nodiscard]] const TexelPatterns& patterns() const { return patterns_; }
   [[nodiscard]] const SweepTexels& texels() const { return texels_; }
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
+
+  /// Fetches what clearInside() needs of a sphere, if it has been seen, while other work goes on.
+  void prefetch(unsigned sphere, std::size_t pattern) const;
 
   /// Clears the bits of points that lie inside other spheres, for a sphere that is seen, maybe for
   /// the first time; false if none is left.
@@ -97,8 +101,8 @@ public:
   /// to.
   [[nodiscard]] std::vector<float> outsideWeights(const CutSphere& cut) const;
 
+  // Of the listed spheres.
   [[nodiscard]] std::uint64_t buried() const;
-  /// Of the listed ones.
   [[nodiscard]] std::uint64_t alone() const;
 
 private:
@@ -109,8 +113,8 @@ private:
     Whole, ///< no part is inside others
     Cut,
     Buried,
-    Alone, ///< open all over, not swept
-    NotListed
+    Alone,   ///< open all over, not swept
+    Occluder ///< no particle: never looked at, since it only occludes
   };
 
   static constexpr std::size_t ChunkSpheres = 16;
@@ -119,18 +123,21 @@ private:
   /// memory, and two axes never to the same byte.
   struct Chunk
   {
-    std::unique_ptr<float[]> sums;      ///< [ChunkSpheres][slots]
-    std::unique_ptr<GroupMask[]> masks; ///< [AxesPerBlock][ChunkSpheres][groups] where seen
+    float* sums;      ///< [ChunkSpheres][slots]
+    GroupMask* masks; ///< [AxesPerBlock][ChunkSpheres][groups] where seen
     std::array<std::array<std::uint8_t, ChunkSpheres>, AxesPerBlock> seen{};
     std::array<std::uint8_t, ChunkSpheres> everSeen{};
-    std::array<std::unique_ptr<float[]>, ChunkSpheres> subsets; ///< of watched spheres ever seen
+    std::array<float*, ChunkSpheres> subsets{}; ///< of watched spheres ever seen
   };
 
   [[nodiscard]] Surface surfaceOf(unsigned sphere);
-  [[nodiscard]] std::unique_ptr<CutSphere> makeCut(const std::vector<BuriedCap>& caps) const;
+  [[nodiscard]] std::uint64_t countListed(Surface surface) const;
+  [[nodiscard]] std::unique_ptr<CutSphere> makeCut(
+    unsigned sphere, const std::vector<BuriedCap>& caps);
   /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
   /// to sums [rimGroups][GroupSize].
   void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
+  [[nodiscard]] float* makeSums(std::size_t count);
   Chunk& findOrMakeChunk(unsigned sphere);
   void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
   [[nodiscard]] bool isAlone(unsigned sphere) const;
@@ -140,12 +147,15 @@ private:
   const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
+  std::vector<std::uint8_t> listed_; ///< flags by sphere
   std::uint32_t epoch_ = 0;
   TexelPatterns patterns_;
   OpenWeights open_;
-  std::vector<std::atomic<Surface>> surface_; ///< by sphere
-  std::vector<std::atomic<CutSphere*>> cuts_; ///< by sphere
-  std::vector<std::atomic<Chunk*>> chunks_;   ///< by sphere / ChunkSpheres
+  RecordMemory memory_;
+  std::vector<std::atomic<Surface>> surface_;            ///< by sphere
+  std::vector<std::atomic<CutSphere*>> cuts_;            ///< by sphere
+  std::vector<std::atomic<const GroupMask*>> exposures_; ///< by sphere: the bits of cut ones
+  std::vector<std::atomic<Chunk*>> chunks_;              ///< by sphere / ChunkSpheres
   tbb::concurrent_vector<std::unique_ptr<CutSphere>> ownedCuts_;
   std::vector<std::uint8_t> watched_; ///< flags by sphere
 };

@@ -13,16 +13,23 @@ namespace po
 {
 namespace
 {
-/// A new point array of the image; the pointer is to its values.
 template <typename Array>
-auto addLayer(vtkImageData* image, const char* name, int components)
+void addLayer(vtkImageData* image, const char* name, int components)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(image->GetNumberOfPoints());
   image->GetPointData()->AddArray(array);
-  return array->GetPointer(0);
+}
+
+/// Where the values of a row begin.
+template <typename Array>
+auto layerFrom(vtkImageData* image, const char* name, int row)
+{
+  auto* array = Array::SafeDownCast(image->GetPointData()->GetAbstractArray(name));
+  const vtkIdType first = static_cast<vtkIdType>(row) * image->GetDimensions()[0];
+  return array->GetPointer(first * array->GetNumberOfComponents());
 }
 
 void fillNormals(const SphereRenderer& renderer, float* normals)
@@ -37,30 +44,38 @@ void fillNormals(const SphereRenderer& renderer, float* normals)
 }
 }
 
-vtkSmartPointer<vtkImageData> makeLayers(
-  const SphereRenderer& renderer, const OcclusionTextures& textures)
+vtkSmartPointer<vtkImageData> newLayers(int width, int height)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(width, height, 1);
+  addLayer<vtkUnsignedCharArray>(image, "RGBA", 4);
+  image->GetPointData()->SetActiveScalars("RGBA");
+  addLayer<vtkFloatArray>(image, "Z", 1);
+  addLayer<vtkFloatArray>(image, "AO", 1);
+  addLayer<vtkFloatArray>(image, "N", 3);
+  addLayer<vtkTypeInt64Array>(image, "id", 1);
+  return image;
+}
+
+void fillLayers(const SphereRenderer& renderer, const OcclusionTextures& textures, int firstRow,
+  vtkImageData* image)
 {
   const TracedFrame& frame = renderer.frame();
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(frame.width, frame.height, 1);
-
   const std::vector<std::uint8_t>& rgba = renderer.rgba();
-  std::copy(rgba.begin(), rgba.end(), addLayer<vtkUnsignedCharArray>(image, "RGBA", 4));
-  image->GetPointData()->SetActiveScalars("RGBA");
+  std::copy(rgba.begin(), rgba.end(), layerFrom<vtkUnsignedCharArray>(image, "RGBA", firstRow));
 
-  std::transform(frame.t.begin(), frame.t.end(), addLayer<vtkFloatArray>(image, "Z", 1),
+  std::transform(frame.t.begin(), frame.t.end(), layerFrom<vtkFloatArray>(image, "Z", firstRow),
     [](double t) { return static_cast<float>(t); });
 
   const std::vector<std::int64_t>& particles = renderer.cloud().sourceIds;
   std::vector<float> occlusion;
   lookUpOcclusion(frame, particles, textures, occlusion);
-  std::copy(occlusion.begin(), occlusion.end(), addLayer<vtkFloatArray>(image, "AO", 1));
+  std::copy(occlusion.begin(), occlusion.end(), layerFrom<vtkFloatArray>(image, "AO", firstRow));
 
-  fillNormals(renderer, addLayer<vtkFloatArray>(image, "N", 3));
+  fillNormals(renderer, layerFrom<vtkFloatArray>(image, "N", firstRow));
 
   std::transform(frame.sphere.begin(), frame.sphere.end(),
-    addLayer<vtkTypeInt64Array>(image, "id", 1),
+    layerFrom<vtkTypeInt64Array>(image, "id", firstRow),
     [&](std::uint32_t sphere) { return sphere == SphereScene::None ? -1 : particles[sphere]; });
-  return image;
 }
 }

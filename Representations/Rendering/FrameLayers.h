@@ -10,10 +10,13 @@ class vtkImageData;
 
 namespace po
 {
-/// The traced and shaded frame as an image with the point arrays RGBA, Z, AO, N and id, see
-/// vtkRayTracedSphereMapper::GetLayers.
-[[nodiscard]] vtkSmartPointer<vtkImageData> makeLayers(
-  const SphereRenderer& renderer, const OcclusionTextures& textures);
+/// An image with the point arrays RGBA, Z, AO, N and id, see vtkRayTracedSphereMapper::GetLayers,
+/// whose values are yet to come.
+[[nodiscard]] vtkSmartPointer<vtkImageData> newLayers(int width, int height);
+
+/// Fills rows of the image, from `firstRow` on, with the traced and shaded frame, which is as wide.
+void fillLayers(const SphereRenderer& renderer, const OcclusionTextures& textures, int firstRow,
+  vtkImageData* image);
 }
 
 #endif

@@ -24,6 +24,13 @@ Matrix4 toMatrix(vtkMatrix4x4* source)
   return matrix;
 }
 
+Camera cameraOf(vtkRenderer* renderer, int width, int height, double aspect)
+{
+  vtkCamera* camera = renderer->GetActiveCamera();
+  return { toMatrix(camera->GetModelViewTransformMatrix()),
+    toMatrix(camera->GetProjectionTransformMatrix(aspect, -1, 1)), width, height };
+}
+
 Vec3d toVec3d(const double* v)
 {
   return { v[0], v[1], v[2] };
@@ -55,10 +62,12 @@ Light toLight(vtkLight* source)
 
 Camera cameraOf(vtkRenderer* renderer, int width, int height)
 {
-  vtkCamera* camera = renderer->GetActiveCamera();
-  return { toMatrix(camera->GetModelViewTransformMatrix()),
-    toMatrix(camera->GetProjectionTransformMatrix(renderer->GetTiledAspectRatio(), -1, 1)), width,
-    height };
+  return cameraOf(renderer, width, height, renderer->GetTiledAspectRatio());
+}
+
+Camera cameraOfPicture(vtkRenderer* renderer, int width, int height)
+{
+  return cameraOf(renderer, width, height, static_cast<double>(width) / height);
 }
 
 Matrix4 placementOf(vtkActor* actor)

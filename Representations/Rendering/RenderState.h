@@ -18,6 +18,9 @@ namespace po
 /// those that all other actors are drawn with.
 [[nodiscard]] Camera cameraOf(vtkRenderer* renderer, int width, int height);
 
+/// The same for a picture of its own, with square pixels, whatever the shape of the window.
+[[nodiscard]] Camera cameraOfPicture(vtkRenderer* renderer, int width, int height);
+
 /// The actor's placement, also where it is in the coordinates of a device.
 [[nodiscard]] Matrix4 placementOf(vtkActor* actor);
 

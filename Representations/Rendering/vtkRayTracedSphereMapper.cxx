@@ -30,13 +30,23 @@
 
 vtkStandardNewMacro(vtkRayTracedSphereMapper);
 
+namespace
+{
+/// Of all mappers of the process: they often show the same spheres in several views.
+const std::shared_ptr<po::SceneCache>& sharedScenes()
+{
+  static const auto scenes = std::make_shared<po::SceneCache>();
+  return scenes;
+}
+}
+
 struct vtkRayTracedSphereMapper::Internals
 {
   /// What the spheres were read from; they are read again when any of it changes.
   using Source = std::tuple<vtkPolyData*, vtkMTimeType, std::string, double, double>;
 
   Source LastSource{ nullptr, 0, {}, 0, 0 };
-  po::SphereRenderer Renderer;
+  po::SphereRenderer Renderer{ sharedScenes() };
   po::BakedTextures Baked;
   po::FrameDrawer Drawer;
   std::vector<std::uint8_t> SelectionColors;
@@ -265,12 +275,81 @@ vtkImageData* vtkRayTracedSphereMapper::GetLayers()
 {
   if (!this->Internal->LayersAreCurrent)
   {
-    this->Internal->Layers = this->Internal->Renderer.isShaded()
-      ? po::makeLayers(this->Internal->Renderer, this->Internal->Baked.textures)
-      : vtkSmartPointer<vtkImageData>::New();
+    const po::SphereRenderer& spheres = this->Internal->Renderer;
+    const bool shaded = spheres.isShaded();
+    this->Internal->Layers = shaded ? po::newLayers(spheres.frame().width, spheres.frame().height)
+                                    : vtkSmartPointer<vtkImageData>::New();
+    if (shaded)
+    {
+      po::fillLayers(spheres, this->Internal->Baked.textures, 0, this->Internal->Layers);
+    }
     this->Internal->LayersAreCurrent = true;
   }
   return this->Internal->Layers;
+}
+
+vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::RenderLayers(
+  vtkRenderer* renderer, vtkActor* actor, int width, int height)
+{
+  constexpr int largestSide = 65536;
+  constexpr int pixelsPerBand = 1 << 22;
+  if (width < 1 || height < 1 || width > largestSide || height > largestSide)
+  {
+    vtkErrorMacro("Layers must have 1 to " << largestSide << " pixels a side, not " << width
+                                           << " x " << height << ".");
+    return vtkSmartPointer<vtkImageData>::New();
+  }
+  try
+  {
+    return this->TraceLayers(renderer, actor, width, height, pixelsPerBand);
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(
+      "Layers of " << width << " x " << height << " pixels cannot be made: " << error.what());
+    return vtkSmartPointer<vtkImageData>::New();
+  }
+}
+
+vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::TraceLayers(
+  vtkRenderer* renderer, vtkActor* actor, int width, int height, int pixelsPerBand)
+{
+  this->UpdateSpheres();
+  po::SphereRenderer& spheres = this->Internal->Renderer;
+  if (spheres.cloud().spheres.empty())
+  {
+    return vtkSmartPointer<vtkImageData>::New();
+  }
+  this->GetLayers(); // keep those of the last frame, which is lost
+  const po::Camera camera = po::cameraOfPicture(renderer, width, height);
+  vtkSmartPointer<vtkImageData> layers = po::newLayers(width, height);
+  const int rows = std::max(1, pixelsPerBand / width);
+  for (int first = 0; first < height; first += rows)
+  {
+    const po::Camera band = po::bandOf(camera, first, std::min(rows, height - first));
+    if (!spheres.trace(band, po::placementOf(actor)))
+    {
+      return vtkSmartPointer<vtkImageData>::New();
+    }
+    this->Shade(renderer, actor);
+    po::fillLayers(spheres, this->Internal->Baked.textures, first, layers);
+  }
+  this->Internal->LayersAreCurrent = true;
+  return layers;
+}
+
+void vtkRayTracedSphereMapper::ReleaseSpheres()
+{
+  this->Internal->LastSource = { nullptr, 0, {}, 0, 0 };
+  this->Internal->Renderer = po::SphereRenderer(sharedScenes());
+  this->Internal->Baked = {};
+  this->Internal->Layers = nullptr;
+  this->Internal->LayersAreCurrent = false;
+}
+
+vtkIdType vtkRayTracedSphereMapper::GetNumberOfScenes()
+{
+  return static_cast<vtkIdType>(sharedScenes()->size());
 }
 
 void vtkRayTracedSphereMapper::ReleaseGraphicsResources(vtkWindow* window)

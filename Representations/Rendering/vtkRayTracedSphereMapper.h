@@ -23,6 +23,7 @@
 
 #include "ParticleOcclusionRenderingModule.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkSmartPointer.h"
 
 #include <memory>
 
@@ -92,6 +93,18 @@ public:
   /// the mapper and does not follow later frames.
   vtkImageData* GetLayers();
 
+  /// The same layers of the renderer's view at another size, 1 to 65,536 pixels a side, traced by
+  /// themselves: no frame buffer limits the size. Parts of up to 4 million pixels are traced one
+  /// after the other; the image takes 32 bytes a pixel. An empty image where there are no spheres.
+  vtkSmartPointer<vtkImageData> RenderLayers(
+    vtkRenderer* renderer, vtkActor* actor, int width, int height);
+
+  /// Gives back the memory of spheres, scene and frame; the next frame builds them anew.
+  void ReleaseSpheres();
+
+  /// Scenes of spheres in this process: mappers of equal spheres share one.
+  static vtkIdType GetNumberOfScenes();
+
   ///@{
   /// What was done: spheres that are drawn; of the last frame that was traced the rays (primary and
   /// shadow), tiles that were skipped and shadow rays that were saved; frames traced so far.
@@ -131,6 +144,8 @@ private:
   void UpdateSpheres();
   void TraceAndDraw(vtkRenderer* renderer, vtkActor* actor);
   void Shade(vtkRenderer* renderer, vtkActor* actor);
+  vtkSmartPointer<vtkImageData> TraceLayers(
+    vtkRenderer* renderer, vtkActor* actor, int width, int height, int pixelsPerBand);
   const unsigned char* MapPointColors();
   void ColorForSelection(vtkRenderer* renderer);
 

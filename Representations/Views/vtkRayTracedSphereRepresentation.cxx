@@ -3,6 +3,9 @@
 
 #include "BakedTextures.h"
 #include "Blocks.h"
+#include "ControllerGroup.h"
+#include "ParticleDelivery.h"
+#include "SphereInput.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
@@ -17,6 +20,7 @@
 #include "vtkPVRenderView.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkProcessModule.h"
 #include "vtkProperty.h"
 #include "vtkRayTracedSphereMapper.h"
 #include "vtkRenderedLayersWriter.h"
@@ -64,6 +68,7 @@ std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
 }
 
 vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
+  : Delivered(std::make_unique<po::DeliveredParticles>())
 {
   vtkMath::UninitializeBounds(this->Bounds);
   this->Actor->SetMapper(this->Mapper);
@@ -80,6 +85,7 @@ bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
   {
     return false;
   }
+  this->View = renderView;
   renderView->GetRenderer()->AddActor(this->Actor);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::AddToView(view);
@@ -94,6 +100,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
+  this->Mapper->ReleaseSpheres();
   return this->Superclass::RemoveFromView(view);
 }
 
@@ -116,7 +123,23 @@ int vtkRayTracedSphereRepresentation::RequestData(
   {
     vtkWarningMacro(<< warning);
   }
+  this->ResolveRadii();
+  const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
+  this->Piece = po::pieceToDeliver(this->Particles, group.rank(), group.size());
   return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+/// What is chosen automatically is chosen for the particles of all processes.
+void vtkRayTracedSphereRepresentation::ResolveRadii()
+{
+  const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
+  po::RadiusSettings radii{ this->RadiusArray, 1.0, this->ConstantRadius };
+  if (group.size() > 1)
+  {
+    radii = po::resolveRadii(*this->Particles, radii, group);
+  }
+  this->Mapper->SetRadiusArray(radii.array.c_str());
+  this->Mapper->SetConstantRadius(radii.constant);
 }
 
 int vtkRayTracedSphereRepresentation::ProcessViewRequest(
@@ -132,7 +155,13 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
   }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
-    this->Mapper->SetInputDataObject(vtkPVView::GetDeliveredPiece(inInfo, this));
+    std::string warning;
+    this->Mapper->SetInputDataObject(
+      this->Delivered->update(vtkPVView::GetDeliveredPiece(inInfo, this), warning));
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
     this->UpdateColoring();
   }
   return 1;
@@ -142,7 +171,7 @@ void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
 {
   if (this->Particles)
   {
-    vtkPVView::SetPiece(inInfo, this, this->Particles);
+    vtkPVView::SetPiece(inInfo, this, this->Piece);
     this->UpdateBounds();
   }
   vtkNew<vtkMatrix4x4> matrix;
@@ -179,6 +208,10 @@ void vtkRayTracedSphereRepresentation::UpdateColoring()
 void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 {
   this->Actor->SetVisibility(visible);
+  if (!visible)
+  {
+    this->Mapper->ReleaseSpheres();
+  }
   this->Superclass::SetVisibility(visible);
 }
 
@@ -186,6 +219,7 @@ void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 
 void vtkRayTracedSphereRepresentation::SetRadiusArray(const char* name)
 {
+  this->RadiusArray = name ? name : "";
   this->Mapper->SetRadiusArray(name);
   this->RadiusTime.Modified();
   this->MarkModified();
@@ -200,6 +234,7 @@ void vtkRayTracedSphereRepresentation::SetRadiusScale(double scale)
 
 void vtkRayTracedSphereRepresentation::SetConstantRadius(double radius)
 {
+  this->ConstantRadius = radius;
   this->Mapper->SetConstantRadius(radius);
   this->RadiusTime.Modified();
   this->MarkModified();
@@ -245,34 +280,78 @@ const char* vtkRayTracedSphereRepresentation::GetLayersFile()
   return this->LayersFile.c_str();
 }
 
+void vtkRayTracedSphereRepresentation::SetLayersResolution(int width, int height)
+{
+  this->LayersResolution[0] = width;
+  this->LayersResolution[1] = height;
+}
+
+/// The client or the server, whichever the view has chosen; ParaView calls both.
+bool vtkRayTracedSphereRepresentation::DrawsHere()
+{
+  const bool onServer = this->View && this->View->GetUseDistributedRenderingForRender();
+  switch (vtkProcessModule::GetProcessType())
+  {
+    case vtkProcessModule::PROCESS_CLIENT:
+      return !onServer;
+    case vtkProcessModule::PROCESS_SERVER:
+    case vtkProcessModule::PROCESS_RENDER_SERVER:
+      return onServer;
+    case vtkProcessModule::PROCESS_DATA_SERVER:
+      return false;
+    default:
+      return true;
+  }
+}
+
+vtkSmartPointer<vtkImageData> vtkRayTracedSphereRepresentation::MakeLayers()
+{
+  const int width = this->LayersResolution[0];
+  const int height = this->LayersResolution[1];
+  if (!this->View || (width == 0 && height == 0))
+  {
+    return this->Mapper->GetLayers();
+  }
+  return this->Mapper->RenderLayers(this->View->GetRenderer(), this->Actor, width, height);
+}
+
 void vtkRayTracedSphereRepresentation::WriteLayers()
 {
+  if (!this->DrawsHere())
+  {
+    return;
+  }
   vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  vtkImageData* layers = this->Mapper->GetLayers();
   if (this->LayersFile.empty())
   {
     vtkErrorMacro("LayersFile is empty: name the OpenEXR file to write the layers to.");
+    return;
   }
-  else if (processes && processes->GetNumberOfProcesses() > 1)
+  if (processes && processes->GetNumberOfProcesses() > 1)
   {
     vtkErrorMacro("Layers can only be written where one process draws all spheres.");
+    return;
   }
-  else if (layers->GetNumberOfPoints() == 0)
+  const vtkSmartPointer<vtkImageData> layers = this->MakeLayers();
+  if (layers->GetNumberOfPoints() == 0)
   {
-    vtkErrorMacro("There are no layers to write: render the view first.");
+    vtkErrorMacro("There are no layers to write: show the spheres and render the view first.");
+    return;
   }
-  else
-  {
-    vtkNew<vtkRenderedLayersWriter> writer; // reports its own errors
-    writer->SetInputData(layers);
-    writer->SetFileName(this->LayersFile.c_str());
-    writer->Write();
-  }
+  vtkNew<vtkRenderedLayersWriter> writer; // reports its own errors
+  writer->SetInputData(layers);
+  writer->SetFileName(this->LayersFile.c_str());
+  writer->Write();
 }
 
 vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSpheres()
 {
   return this->Mapper->GetNumberOfSpheres();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfScenes()
+{
+  return vtkRayTracedSphereMapper::GetNumberOfScenes();
 }
 
 vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfRays()

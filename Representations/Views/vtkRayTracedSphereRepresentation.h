@@ -15,14 +15,23 @@
 #include "vtkPVDataRepresentation.h"
 #include "vtkSmartPointer.h"
 #include "vtkTimeStamp.h"
+#include "vtkWeakPointer.h"
 
+#include <memory>
 #include <string>
 
 class vtkActor;
+class vtkDataObject;
 class vtkImageData;
+class vtkPVRenderView;
 class vtkPolyData;
 class vtkRayTracedSphereMapper;
 class vtkScalarsToColors;
+
+namespace po
+{
+class DeliveredParticles;
+}
 
 class PARTICLEOCCLUSIONREPRESENTATIONS_EXPORT vtkRayTracedSphereRepresentation
   : public vtkPVDataRepresentation
@@ -47,6 +56,7 @@ public:
   void SetLookupTable(vtkScalarsToColors* table);
   vtkImageData* GetLayers();
   vtkIdType GetNumberOfSpheres();
+  vtkIdType GetNumberOfScenes();
   vtkIdType GetNumberOfRays();
   vtkIdType GetNumberOfShadowRays();
   vtkIdType GetNumberOfSkippedTiles();
@@ -62,10 +72,14 @@ public:
   const char* GetLayersFile();
   ///@}
 
-  /// Writes the layers of the last frame that was drawn to the LayersFile: RGBA, Z, AO, N and
-  /// particle id, of this representation alone, as vtkRenderedLayersWriter describes them. An error
-  /// says what is wrong if there is no file name, nothing has been drawn yet, the frame was drawn
-  /// by several processes together, or the file cannot be written.
+  /// Width and height of the layers, up to 65,536. Default 0 0: as large as the last frame that was
+  /// drawn.
+  void SetLayersResolution(int width, int height);
+
+  /// Writes layers of the view to the LayersFile: RGBA, Z, AO, N and particle id, of this
+  /// representation alone, as vtkRenderedLayersWriter describes them; on the process that draws. An
+  /// error says what is wrong if there is no file name, nothing has been drawn yet, several
+  /// processes draw together, or the file cannot be written.
   void WriteLayers();
 
   /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
@@ -105,17 +119,26 @@ private:
   vtkRayTracedSphereRepresentation(const vtkRayTracedSphereRepresentation&) = delete;
   void operator=(const vtkRayTracedSphereRepresentation&) = delete;
 
+  [[nodiscard]] bool DrawsHere();
+  vtkSmartPointer<vtkImageData> MakeLayers();
   void ProvideData(vtkInformation* inInfo);
+  void ResolveRadii();
   void UpdateBounds();
   void UpdateColoring();
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
   vtkSmartPointer<vtkPolyData> Particles;
+  vtkSmartPointer<vtkDataObject> Piece; ///< the particles as they are delivered
+  std::unique_ptr<po::DeliveredParticles> Delivered;
+  std::string RadiusArray;
+  double ConstantRadius = 0;
   double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
   vtkTimeStamp BoundsTime;
   vtkTimeStamp RadiusTime; ///< when a parameter of the radii was last set
   std::string LayersFile;
+  int LayersResolution[2] = { 0, 0 };
+  vtkWeakPointer<vtkPVRenderView> View;
 };
 
 #endif

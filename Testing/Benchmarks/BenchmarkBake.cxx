@@ -106,7 +106,7 @@ class BareLoop
 {
 public:
   explicit BareLoop(const Workload& work)
-    : device_(po::makeDevice())
+    : device_(po::makeDevice(work.cloud.spheres.size()))
     , scene_(rtcNewScene(device_.get()))
   {
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);

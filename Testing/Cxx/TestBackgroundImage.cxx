@@ -23,7 +23,6 @@
 #include <limits>
 #include <map>
 
-namespace Imf = OPENEXR_IMF_NAMESPACE;
 using IMATH_NAMESPACE::Box2i;
 using IMATH_NAMESPACE::V2f;
 using IMATH_NAMESPACE::V2i;
@@ -325,6 +324,29 @@ TEST(BackgroundImage, ForeignFilesAreErrorsThatNameThem)
   EXPECT_HAS(errorOf(folder.file("none.exr")), "no such file");
   EXPECT_HAS(errorOf(folder.file("")), "not a file");
   EXPECT_HAS(errorOf(""), "no such file");
+}
+
+/// Cut before, in and after the header, every offset and every block of lines or tile.
+TEST(BackgroundImage, AFileCutAnywhereIsRefused)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.file("a.exr");
+  for (const bool tiled : { false, true })
+  {
+    Imf::Header header(12, 40);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    if (tiled)
+    {
+      header.setTileDescription(Imf::TileDescription(6, 16, Imf::ONE_LEVEL));
+    }
+    writeFloats(file, header, rgb(12 * 40));
+    const Bytes whole = readBytes(file);
+    for (std::size_t length = 0; length < whole.size(); ++length)
+    {
+      writeBytes(file, Bytes(whole.begin(), whole.begin() + length));
+      EXPECT_HAS(errorOf(file), "a.exr") << "at byte " << length;
+    }
+  }
 }
 
 TEST(BackgroundImage, DamagedFilesNeverCrash)

@@ -192,8 +192,8 @@ TEST(Occluders, ThePilotLooksAtParticlesOnly)
   const po::BakeScene scene(split.particles, split.occluders);
   EXPECT_EQ(scene.receivers(), 30u);
   po::Progress progress;
-  const po::PilotResult pilot =
-    po::samplesForError(scene, floatSettings(4, 1), po::ReferenceEstimator(), 0.02, progress);
+  const po::PilotResult pilot = po::samplesForError(
+    scene, allOf(scene), floatSettings(4, 1), po::ReferenceEstimator(), 0.02, progress);
   EXPECT_TRUE(pilot.reached);
 }
 
@@ -202,7 +202,7 @@ TEST(Occluders, SpheresArePutIntoTheCoordinatesOfTheParticles)
   const po::SphereCloud particles = cloudOf({ { 10, 0, 0, 2 }, { 14, 0, 0, 2 } });
   const po::Vec3d positions[] = { { 12, 6, 0 }, { 0, 0, 1e30 } };
   const po::SphereCloud others = po::makeSphereCloudLike(
-    particles, 2, [&](std::size_t i) { return positions[i]; }, [](std::size_t) { return 8; });
+    particles, { 2, [&](std::size_t i) { return positions[i]; }, [](std::size_t) { return 8; } });
   ASSERT_EQ(others.spheres.size(), 1u);
   EXPECT_EQ(others.spheres[0].x, 0);
   EXPECT_EQ(others.spheres[0].y, 3);

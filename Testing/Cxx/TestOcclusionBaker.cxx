@@ -373,8 +373,8 @@ TEST(OcclusionBaker, ThePilotFindsTheSamplesThatReachAnError)
   {
     po::Progress progress;
     po::BakeSettings settings = floatSettings(4, 1);
-    const po::PilotResult pilot =
-      po::samplesForError(scene, settings, po::ReferenceEstimator(), target, progress);
+    const po::PilotResult pilot = po::samplesForError(
+      scene, allOf(scene), settings, po::ReferenceEstimator(), target, progress);
     ASSERT_TRUE(pilot.reached);
     EXPECT_LE(pilot.estimatedError, target);
     settings.samplesPerTexel = pilot.samplesPerTexel;

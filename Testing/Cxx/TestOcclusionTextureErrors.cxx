@@ -129,6 +129,20 @@ TEST(OcclusionTextureErrors, DamagedFilesNeverCrash)
   EXPECT_LT(peakMegabytes(), peak + 100);
 }
 
+/// Cut before, in and after the header, every offset, every tile and every row of particles.
+TEST(OcclusionTextureErrors, AFileCutAnywhereIsRefused)
+{
+  TemporaryFolder folder;
+  PolyData baked = bakedBytes(30, 7, 4);
+  write(baked, folder.file("whole.exr"));
+  const Bytes whole = readBytes(folder.file("whole.exr"));
+  for (std::size_t length = 0; length < whole.size(); ++length)
+  {
+    writeBytes(folder.file("cut.exr"), Bytes(whole.begin(), whole.begin() + length));
+    EXPECT_HAS(errorOfReading(folder.file("cut.exr"), baked), "cut.exr") << "at byte " << length;
+  }
+}
+
 TEST(OcclusionTextureErrors, InputThatIsNotBakedIsAnError)
 {
   TemporaryFolder folder;
@@ -202,7 +216,12 @@ TEST(OcclusionTextureErrors, FullDiskLeavesThePreviousFileAndNoPartialOne)
   std::filesystem::remove(folder.file("large.exr"));
 
   // Full in the header, among tiles, among particles, and at the very last byte.
-  for (std::size_t limit : { std::size_t(100), size / 3, size - 9000, size - 1 })
+  std::vector<std::size_t> limits = { 0, 1, 100, size - 9000, size - 2, size - 1 };
+  for (std::size_t part = 1; part < 40; ++part)
+  {
+    limits.push_back(size * part / 40);
+  }
+  for (const std::size_t limit : limits)
   {
     std::string message;
     {

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the mapper keeps, answers and reports.
 // Real windows: these tests need a display with OpenGL, Xvfb for instance.
+#include "MemoryGrowth.h"
 #include "RayTracedSphereTestScene.h"
 #include "VTKErrors.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCamera.h"
+#include "vtkDepthSilhouettePass.h"
 #include "vtkHardwareSelector.h"
 #include "vtkIdTypeArray.h"
 #include "vtkLight.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkRenderStepsPass.h"
 #include "vtkSelection.h"
 #include "vtkSelectionNode.h"
 
@@ -151,5 +157,110 @@ TEST(RayTracedSphereMapper, WindowsAndResourcesComeAndGo)
   scene.window->SetSize(50, 40);
   scene.window->SetMultiSamples(0);
   EXPECT_EQ(differingShare(first, grab(scene.window)), 0);
+}
+
+/// Spheres whose number and arrays change every time the pipeline is asked: in the midst of a
+/// render.
+class Restless : public vtkPolyDataAlgorithm
+{
+public:
+  static Restless* New();
+  vtkTypeMacro(Restless, vtkPolyDataAlgorithm);
+  int executions = 0;
+
+protected:
+  Restless() { this->SetNumberOfInputPorts(0); }
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    auto data = makeBalls(lattice(1 + executions % 4));
+    bakeConstant(data, static_cast<unsigned char>(100 + executions % 100));
+    if (executions % 3 == 1)
+    {
+      data->GetPointData()->RemoveArray(executions % 2 ? "value" : "radius");
+    }
+    if (executions % 5 == 4)
+    {
+      data->Initialize();
+    }
+    vtkPolyData::GetData(output)->ShallowCopy(data);
+    ++executions;
+    return 1;
+  }
+};
+vtkStandardNewMacro(Restless);
+
+TEST(RayTracedSphereMapper, DataMayChangeWhileItRenders)
+{
+  Scene scene(lattice(2), 60, 50);
+  vtkNew<Restless> source;
+  scene.mapper->SetInputConnection(source->GetOutputPort());
+  scene.mapper->ScalarVisibilityOn();
+  scene.mapper->SetScalarModeToUsePointFieldData();
+  scene.mapper->SelectColorArray("value");
+  ErrorCatcher errors(scene.mapper); // of arrays that have gone
+  vtkNew<vtkCallbackCommand> change;
+  change->SetClientData(source);
+  change->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*) { static_cast<Restless*>(data)->Modified(); });
+  // Before the bounds are known, between the bounds and the spheres, after the frame.
+  scene.renderer->AddObserver(vtkCommand::StartEvent, change);
+  scene.renderer->AddObserver(vtkCommand::ResetCameraClippingRangeEvent, change);
+  scene.renderer->AddObserver(vtkCommand::EndEvent, change);
+  scene.window->AddObserver(vtkCommand::StartEvent, change);
+  for (int i = 0; i < 40; ++i)
+  {
+    scene.renderer->ResetCameraClippingRange();
+    scene.window->Render();
+    scene.mapper->GetLayers();
+  }
+  EXPECT_GE(source->executions, 40);
+
+  scene.renderer->RemoveAllObservers();
+  scene.window->RemoveAllObservers();
+  scene.mapper->ScalarVisibilityOff();
+  scene.mapper->SetInputData(makeBalls(lattice(2)));
+  scene.renderer->ResetCamera();
+  Scene fresh(lattice(2), 60, 50);
+  EXPECT_EQ(differingShare(grab(scene.window), grab(fresh.window)), 0);
+}
+
+TEST(RayTracedSphereMapper, ArraysMayShrinkUnderTheFrame)
+{
+  Scene scene(lattice(3), 60, 50);
+  auto baked = makeBalls(lattice(3));
+  bakeConstant(baked, 100);
+  scene.mapper->SetInputData(baked);
+  scene.window->Render();
+  // The spheres are still the old ones when these arrays are gone.
+  baked->GetPointData()->GetArray("AmbientOcclusionTexture")->SetNumberOfTuples(1);
+  baked->GetFieldData()->GetArray("AmbientOcclusionTextures")->SetNumberOfTuples(0);
+  baked->GetPointData()->GetArray("AmbientOcclusionTexture")->Modified();
+  WarningCatcher warnings(scene.mapper);
+  scene.actor->GetProperty()->SetColor(1, 0, 0);
+  scene.window->Render();
+  EXPECT_EQ(warnings.count(), 1);
+  baked->GetPointData()->GetArray("radius")->SetNumberOfTuples(2);
+  baked->GetPointData()->GetArray("radius")->Modified();
+  ErrorCatcher errors(scene.mapper);
+  scene.window->Render();
+  EXPECT_EQ(errors.count(), 1);
+}
+
+TEST(RayTracedSphereMapper, AThousandSizesReachAPlateauOfMemory)
+{
+  Scene scene(lattice(3));
+  vtkNew<vtkDepthSilhouettePass> lines;
+  scene.renderer->SetPass(lines);
+  vtkNew<vtkRenderStepsPass> steps;
+  lines->SetDelegatePass(steps);
+  const double growth = growthOver(1000, 300,
+    [&](int i)
+    {
+      scene.window->SetSize(20 + 37 * i % 100, 20 + 53 * i % 90);
+      scene.window->Render();
+    });
+  constexpr double LargestGrowth = 8; // megabytes; a frame of the least size takes 20 kB
+  EXPECT_GE(scene.mapper->GetNumberOfTracedFrames(), 1000) << "every size is a new frame";
+  EXPECT_LT(growth, LargestGrowth);
 }
 }

@@ -22,8 +22,6 @@
 #include <limits>
 #include <set>
 
-namespace Imf = OPENEXR_IMF_NAMESPACE;
-
 namespace
 {
 using Image = vtkSmartPointer<vtkImageData>;
@@ -266,11 +264,40 @@ TEST(RenderedLayers, FullDiskLeavesThePreviousFileAndNoPartialOne)
   {
     depth->SetValue(i, std::generate_canonical<float, 24>(random));
   }
+  ASSERT_EQ(write(image, folder.file("large.exr")), 1);
+  const std::size_t size = readBytes(folder.file("large.exr")).size();
+  std::filesystem::remove(folder.file("large.exr"));
+  // At the beginning, in every block of lines, and at the very last byte.
+  for (std::size_t part = 0; part <= 40; ++part)
   {
-    FileSizeLimit full(20000);
-    EXPECT_HAS(errorOfWriting(image, folder.file("a.exr")), "File too large");
+    std::string message;
+    {
+      FileSizeLimit full(part < 40 ? size * part / 40 : size - 1);
+      message = errorOfWriting(image, folder.file("a.exr"));
+    }
+    EXPECT_HAS(message, "a.exr");
+    EXPECT_HAS(message, "File too large");
+    EXPECT_EQ(readBytes(folder.file("a.exr")), before);
+    EXPECT_EQ(folder.count(), 1u);
   }
-  EXPECT_EQ(readBytes(folder.file("a.exr")), before);
+}
+
+TEST(RenderedLayers, PlacesThatCannotBeWrittenAreErrors)
+{
+  TemporaryFolder folder;
+  Image image = emptyImage(2, 2);
+  addArray<vtkFloatArray>(image, "Z", 1);
+  writeBytes(folder.file("file"), { 'x' });
+  EXPECT_HAS(errorOfWriting(image, folder.file("file/a.exr")), "Not a directory");
+  EXPECT_HAS(errorOfWriting(image, folder.file("")), "folder");
+#ifdef __linux__
+  EXPECT_HAS(errorOfWriting(image, "/dev/full"), "device");
+  EXPECT_HAS(errorOfWriting(image, "/proc/a.exr"), "check that the folder exists and is writable");
+#endif
+  namespace fs = std::filesystem;
+  fs::permissions(folder.file("file"), fs::perms::owner_read);
+  EXPECT_HAS(errorOfWriting(image, folder.file("file")), "write-protected");
+  EXPECT_EQ(readBytes(folder.file("file")), Bytes{ 'x' });
   EXPECT_EQ(folder.count(), 1u);
 }
 #endif

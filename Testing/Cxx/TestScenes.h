@@ -100,12 +100,18 @@ inline Estimates estimateList(const po::OcclusionEstimator& estimator, const po:
   return found;
 }
 
+/// All particles of a scene.
+inline std::vector<unsigned> allOf(const po::BakeScene& scene)
+{
+  std::vector<unsigned> all(scene.receivers());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
 inline Estimates estimateAll(const po::OcclusionEstimator& estimator, const po::BakeScene& scene,
   const po::BakeSettings& settings, po::BakeCounters* counters = nullptr)
 {
-  std::vector<unsigned> all(scene.cloud.spheres.size());
-  std::iota(all.begin(), all.end(), 0u);
-  return estimateList(estimator, scene, all, settings, counters);
+  return estimateList(estimator, scene, allOf(scene), settings, counters);
 }
 
 #endif

@@ -185,7 +185,10 @@ TEST_P(SphereAmbientOcclusionErrors, NamesWhatIsWrong)
   GetParam().spoil(filter, data);
   const std::string error = errorOf(filter);
   EXPECT_NE(error.find(GetParam().says), std::string::npos) << "the message was: " << error;
-  EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutput())->GetNumberOfPoints(), 0);
+  auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
+  EXPECT_EQ(output->GetNumberOfPoints(), data->GetNumberOfPoints());
+  EXPECT_FALSE(output->GetPointData()->HasArray("AmbientOcclusion"));
+  EXPECT_FALSE(output->GetFieldData()->HasArray("AmbientOcclusionTextures"));
 }
 
 const BadInput BadInputs[] = {

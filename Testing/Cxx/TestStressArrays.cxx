@@ -185,6 +185,35 @@ TEST(StressArrays, BlocksAndEmptyPiecesMakeNoDifference)
   }
 }
 
+TEST(StressArrays, CloudsWiderThanFloatsComeOutAsTheyWouldAlone)
+{
+  // Two lattices 1e9 radii apart: each particle sees its own neighbours alone.
+  const vtkSmartPointer<vtkPolyData> near = lattice(3);
+  const vtkSmartPointer<vtkPolyData> both = lattice(3);
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->DeepCopy(near->GetPoints());
+  for (vtkIdType i = 0; i < near->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    near->GetPoint(i, p);
+    points->InsertNextPoint(p[0] + 5e8, p[1] - 2e8, p[2] + 1e8);
+    radiiOf(both)->InsertNextValue(0.5);
+  }
+  both->SetPoints(points);
+  for (const int method : { vtkSphereAmbientOcclusion::Sweep, vtkSphereAmbientOcclusion::Embree,
+         vtkSphereAmbientOcclusion::Reference })
+  {
+    const std::vector<float> alone = meansOf(near, method);
+    const std::vector<float> together = meansOf(both, method);
+    ASSERT_EQ(together.size(), 2 * alone.size());
+    for (std::size_t i = 0; i < together.size(); ++i)
+    {
+      EXPECT_NEAR(together[i], alone[i % alone.size()], 0.03) << method << " " << i;
+    }
+  }
+}
+
 TEST(StressArrays, OneParticleIsOpen)
 {
   for (const int method : { vtkSphereAmbientOcclusion::Sweep, vtkSphereAmbientOcclusion::Embree,

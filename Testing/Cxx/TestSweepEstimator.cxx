@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Constants.h"
 #include "EstimateDifference.h"
 #include "OcclusionBaker.h"
 #include "ProgressiveSweep.h"
@@ -271,11 +272,11 @@ struct UnequalScene
       }
     }
     cloud = cloudOf(particles);
-    occluders.spheres = po::makeSphereCloudLike(
-      cloud, casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
-      [&](std::size_t i) {
-        return static_cast<double>(casters[i].radius);
-      }).spheres;
+    occluders.spheres = po::makeSphereCloudLike(cloud,
+      { casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
+        [&](std::size_t i) {
+          return static_cast<double>(casters[i].radius);
+        } }).spheres;
   }
 
   po::SphereCloud cloud;
@@ -408,11 +409,11 @@ TEST(SweepEstimator, WhatIsAloneWithinTheMaximumDistanceChangesNothing)
   const po::SphereCloud cloud = cloudOf(spheres);
   po::Occluders occluders;
   const std::vector<po::Sphere> casters{ { -50, 0, 0, 1 }, { 20, 3, -0.75f, 0.5f } };
-  occluders.spheres = po::makeSphereCloudLike(
-    cloud, casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
-    [&](std::size_t i) {
-      return static_cast<double>(casters[i].radius);
-    }).spheres;
+  occluders.spheres = po::makeSphereCloudLike(cloud,
+    { casters.size(), [&](std::size_t i) { return casters[i].center().as<double>(); },
+      [&](std::size_t i) {
+        return static_cast<double>(casters[i].radius);
+      } }).spheres;
   const po::BakeScene scene(cloud, occluders);
   po::BakeSettings settings = floatSettings(8, 49);
   settings.maximumDistance = 0.5;
@@ -514,6 +515,38 @@ TEST(SweepEstimator, SkipsSpareWorkAndKeepTheResult)
     EXPECT_EQ(without.spheresClosed == 0, !skips.closedCells);
     EXPECT_EQ(without.spheresNeverSeen == 0, !skips.neverSeen);
   }
+}
+
+TEST(SweepEstimator, ParticlesInCrevicesAreNotOverlooked)
+{
+  // Particles that show along few directions must not be left out of those. Measured: the means of
+  // particles differ by 0.0006 (RMS) and 0.012 at most; by 0.0038 and 0.08 when the directions
+  // along which all spheres take part lie in one band of heights.
+  const po::SphereCloud cloud = cloudOf(syntheticScene(po::SyntheticFamily::Overlap, 8000));
+  const po::BakeScene scene(cloud);
+  const po::BakeSettings settings = floatSettings(4, 49);
+  po::SweepOptions options;
+  options.directions = 512;
+  const Estimates ours = estimateAll(po::SweepEstimator(options), scene, settings);
+  options.skips.neverSeen = false;
+  const Estimates all = estimateAll(po::SweepEstimator(options), scene, settings);
+  double squares = 0;
+  double worst = 0;
+  for (std::size_t first = 0; first < ours.values.size(); first += 16)
+  {
+    double difference = 0;
+    for (std::size_t texel = 0; texel < 16; ++texel)
+    {
+      const double share = po::texelArea(4, static_cast<int>(texel / 4)) / (4 * po::Pi);
+      difference += share *
+        (static_cast<double>(ours.values[first + texel]) -
+          static_cast<double>(all.values[first + texel]));
+    }
+    squares += difference * difference;
+    worst = std::max(worst, std::abs(difference));
+  }
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(cloud.spheres.size())), 0.002);
+  EXPECT_LT(worst, 0.03);
 }
 
 TEST(SweepEstimator, AbortsWithinASecond)

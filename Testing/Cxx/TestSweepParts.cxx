@@ -2,7 +2,9 @@
 /// The parts that a sweep is made of, each by itself.
 
 #include "BackgroundIrradiance.h"
+#include "ClosedCells.h"
 #include "Constants.h"
+#include "EstimateDifference.h"
 #include "Random.h"
 #include "Sampling.h"
 #include "SweepDirections.h"
@@ -10,12 +12,15 @@
 #include "TexelExposure.h"
 #include "TexelMap.h"
 #include "TexelMask.h"
+#include "VisibilityRecords.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <set>
+#include <thread>
 
 namespace
 {
@@ -127,8 +132,10 @@ TEST(TexelMask, HidesWhatThePlainFormulaHides)
     const float distance = number(0.1, 3);
     std::vector<po::GroupMask> mask = facing.facing;
     std::vector<po::GroupMask> within = facing.facing;
-    const bool left = po::hideTexels(facing, o, mask.data());
-    po::hideTexelsWithin(facing, o, distance, within.data());
+    po::OccluderBatch batch;
+    batch.add(o);
+    const bool left = po::hideTexels(facing, batch, mask.data());
+    po::hideTexelsWithin(facing, batch, distance, within.data());
     bool expectedLeft = false;
     for (std::size_t i = 0; i < facing.u.size(); ++i)
     {
@@ -155,13 +162,54 @@ TEST(TexelMask, HidesWhatThePlainFormulaHides)
   }
 }
 
+TEST(TexelMask, HidesByManyWhatEachOfThemHides)
+{
+  const po::SweepTexels texels(16);
+  const po::TexelPatterns patterns(texels, 1, 0);
+  const po::Vec3d direction = po::normalized(po::Vec3d{ -1, 1, 2 });
+  const po::FacingTexels facing(texels, patterns, 9, po::planeBasis(direction), direction);
+  po::Random random(4, 2, 3);
+  std::vector<po::GroupMask> oneByOne = facing.facing;
+  std::vector<po::GroupMask> together = facing.facing;
+  po::OccluderBatch many;
+  for (std::size_t i = 0; i < po::OccluderBatch::Most; ++i)
+  {
+    const auto number = [&random](double low, double high)
+    { return static_cast<float>(low + (high - low) * random.uniform()); };
+    const po::Occluder o{ number(-2, 2), number(-2, 2), number(0, 4), number(0.01, 1) };
+    po::OccluderBatch one;
+    one.add(o);
+    many.add(o);
+    po::hideTexels(facing, one, oneByOne.data());
+  }
+  po::hideTexels(facing, many, together.data());
+  EXPECT_EQ(together, oneByOne);
+  EXPECT_NE(together, facing.facing);
+}
+
+TEST(ClosedCells, SpheresMayReachBeyondAllIntegers)
+{
+  po::ClosedCells cells;
+  const po::DepthTile tile{ 0, 0, 1, nullptr, nullptr };
+  cells.begin(tile, 1);
+  // In cells of half a reach its radius is far beyond 2^31: it closes all of them.
+  cells.close({ 0, 0, 5, 1e12f, 0 });
+  EXPECT_TRUE(cells.hidesAllBelow(3));
+  EXPECT_TRUE(cells.hides({ 0.5f, 0.5f, 3, 1, 1 }));
+  EXPECT_FALSE(cells.hides({ 0.5f, 0.5f, 4.5f, 1, 1 }));
+  // One that sticks out of the cells is not hidden, however far it reaches.
+  EXPECT_FALSE(cells.hides({ 1e12f, 0.5f, 3, 1e12f, 1 }));
+  EXPECT_FALSE(cells.hides({ 0.5f, 1e12f, 3, 1e12f, 1 }));
+}
+
 TEST(TexelExposure, TellsThePointsOutsideAllCaps)
 {
   const po::SweepTexels texels(16);
   const po::TexelPatterns patterns(texels, 1, 0);
   const std::vector<po::BuriedCap> caps{ { po::normalized(po::Vec3d{ 1, 1, 0 }), 0.3 },
     { { 0, 0, 1 }, 0.9 }, { po::normalized(po::Vec3d{ -1, 0, 1 }), -0.2 } };
-  const po::TexelExposure exposure = po::exposeTexels(texels, patterns, caps);
+  po::TexelExposure exposure;
+  po::exposeTexels(texels, patterns, caps, exposure);
   for (std::size_t p = 0; p < po::TexelPatterns::Count; ++p)
   {
     const po::GroupMask* masks = exposure.ofPattern(p, texels.groups());
@@ -175,10 +223,50 @@ TEST(TexelExposure, TellsThePointsOutsideAllCaps)
     }
   }
   // A cap smaller than the distance to any point takes none.
-  const po::TexelExposure open = po::exposeTexels(texels, patterns, { { { 1, 0, 0 }, 1 - 1e-12 } });
+  po::TexelExposure open;
+  po::exposeTexels(texels, patterns, { { { 1, 0, 0 }, 1 - 1e-12 } }, open);
   for (std::size_t i = 0; i < open.bits.size(); ++i)
   {
     EXPECT_EQ(open.bits[i], texels.allBits()[i % texels.groups()]);
+  }
+}
+
+TEST(VisibilityRecords, ThreadsMayMeetASphereAtOnce)
+{
+  // Threads that see a sphere for the first time find out side by side what overlaps it: each goes
+  // on only with a finished answer, and all get the same.
+  const po::SphereCloud cloud = cloudOf(syntheticScene(po::SyntheticFamily::Overlap, 4000));
+  const po::BakeScene scene(cloud);
+  const po::SweepScene order(scene.rays.spheres());
+  const po::SweepTexels texels(16);
+  const std::vector<std::uint8_t> listed(order.size(), 1);
+  const std::vector<std::uint8_t> alone(order.size(), 0);
+  po::VisibilityRecords records(scene, order, texels, 1, listed, alone, {});
+  constexpr std::size_t threads = 4;
+  std::vector<std::vector<po::GroupMask>> masks(threads);
+  std::atomic<unsigned> arrived{ 0 };
+  const auto meetAll = [&](std::size_t thread)
+  {
+    for (unsigned sphere = 0; sphere < order.size(); ++sphere)
+    {
+      std::vector<po::GroupMask> mask = texels.allBits();
+      for (++arrived; arrived < threads * (sphere + 1);)
+      {
+        std::this_thread::yield(); // all begin together
+      }
+      records.clearInside(sphere, 7, mask.data());
+      masks[thread].insert(masks[thread].end(), mask.begin(), mask.end());
+    }
+  };
+  std::vector<std::thread> running;
+  for (std::size_t thread = 0; thread < threads; ++thread)
+  {
+    running.emplace_back(meetAll, thread);
+  }
+  std::for_each(running.begin(), running.end(), [](std::thread& thread) { thread.join(); });
+  for (std::size_t thread = 1; thread < threads; ++thread)
+  {
+    EXPECT_EQ(masks[thread], masks[0]);
   }
 }
 

@@ -5,12 +5,12 @@ rendering: the same picture everywhere.
 Usage: pvpython test_servers.py PVPYTHON PVBATCH PVSERVER
 """
 import os
-import re
 import subprocess
 import sys
 import tempfile
 
 import images
+import servers
 
 DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Data")
 
@@ -36,6 +36,9 @@ display.SetRepresentationType("Ray-Traced Spheres")
 ColorBy(display, ("POINTS", "charge"))
 ResetCamera(view)
 SaveScreenshot(r"{picture}", view, ImageResolution=[300, 200])
+display.LayersFile = r"{picture}.exr"  # by the process that draws: here all see the same files
+display.LayersResolution = [450, 300]
+display.SMProxy.InvokeCommand("WriteLayers")
 if port:
     Disconnect()
 """
@@ -49,29 +52,15 @@ def run_session(executable, folder, name, port=0, threshold=0):
         file.write(SESSION.format(port=port, threshold=threshold, picture=picture,
                                   data=os.path.join(DATA, "molecule.vtp")))
     done = subprocess.run([executable, script], capture_output=True, text=True, timeout=100, check=False)
-    if done.returncode != 0 or not os.path.exists(picture):
+    complete = os.path.exists(picture) and os.path.exists(picture + ".exr")
+    if done.returncode != 0 or not complete or "ERR|" in done.stderr:
         raise SystemExit(f"{name} failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")
     return picture
 
 
-def start_server(executable):
-    """A pvserver on a port that the system chose, and that port."""
-    server = subprocess.Popen([executable, "--server-port=0"], stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True)
-    for line in server.stdout:
-        accepting = re.search(r"Accepting connection\(s\): .*:(\d+)", line)
-        if accepting:
-            return server, int(accepting.group(1))
-    raise SystemExit("pvserver did not start")
-
-
 def with_server(pvserver, pvpython, folder, name, threshold):
-    server, port = start_server(pvserver)
-    try:
+    with servers.running([pvserver]) as port:
         return run_session(pvpython, folder, name, port, threshold)
-    finally:
-        server.kill()
-        server.wait()
 
 
 def main():

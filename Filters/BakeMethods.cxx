@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BakeMethods.h"
+
+#include "EmbreeEstimator.h"
+#include "ErrorPilot.h"
+#include "FreeMemory.h"
+#include "ReferenceEstimator.h"
+#include "SweepEstimator.h"
+#include "vtkSphereAmbientOcclusion.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace po
+{
+namespace
+{
+SweepEstimator sweepFor(const BakeTask& task)
+{
+  SweepOptions options;
+  options.targetError = task.targetError;
+  return SweepEstimator(options);
+}
+
+double memoryOf(const BakeTask& task, const OcclusionEstimator& estimator)
+{
+  const std::size_t foreign = task.cloud.spheres.size() - task.receivers.size();
+  return bakeMemory(task.receivers.size(), task.settings, estimator) +
+    occluderMemory(foreign + task.occluders.spheres.size(), task.occluders.mesh.triangles.size());
+}
+
+/// The RMS over the particles of all processes.
+double errorOfAll(double own, std::size_t particles, const ProcessGroup& group)
+{
+  const auto weight = static_cast<double>(particles);
+  const double squares = group.sum(weight * own * own);
+  const double weights = group.sum(weight);
+  return weights > 0 ? std::sqrt(squares / weights) : 0;
+}
+
+/// One bake by any method.
+class MethodBake
+{
+public:
+  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+    : task_(task)
+    , group_(group)
+    , progress_(progress)
+    , report_(report)
+  {
+  }
+
+  BakeResult bySweep()
+  {
+    const SweepEstimator sweep = sweepFor(task_);
+    BakeResult result = bake(sweep);
+    finish(result, sweep.report().directions, sweep.report().estimatedError, task_.targetError > 0);
+    report_.refined = result.aborted ? 0 : group_.sum(std::uint64_t(sweep.report().refined));
+    return result;
+  }
+
+  BakeResult byEmbree()
+  {
+    EmbreeOptions options;
+    options.targetError = task_.targetError;
+    const EmbreeEstimator embree(options);
+    BakeResult result = bake(embree);
+    finish(result, embree.report().directions, embree.report().estimatedError, false);
+    return result;
+  }
+
+  BakeResult byReference()
+  {
+    const ReferenceEstimator reference;
+    requireMemory(memoryOf(task_, reference), task_.receivers.size());
+    const BakeScene scene(task_.cloud, task_.occluders, group_);
+    double error = 0;
+    if (task_.targetError > 0)
+    {
+      const PilotResult pilot = samplesForError(
+        scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
+      task_.settings.samplesPerTexel = pilot.samplesPerTexel;
+      error = pilot.estimatedError;
+    }
+    BakeResult result = bakeOcclusion(scene, task_.receivers, task_.settings, reference, progress_);
+    finish(result, 0, error, true);
+    return result;
+  }
+
+private:
+  BakeResult bake(const OcclusionEstimator& estimator)
+  {
+    requireMemory(memoryOf(task_, estimator), task_.receivers.size());
+    return bakeOcclusion(BakeScene(task_.cloud, task_.occluders, group_), task_.receivers,
+      task_.settings, estimator, progress_);
+  }
+
+  /// @param errorIsOfAll whether the estimator has found it over all processes
+  void finish(const BakeResult& result, int directions, double error, bool errorIsOfAll)
+  {
+    if (result.aborted)
+    {
+      return; // the others are told elsewhere, and exchange nothing any more
+    }
+    report_.counters = result.counters.summed(group_);
+    report_.directions = static_cast<int>(group_.largest(directions));
+    report_.samplesUsed = task_.settings.samplesPerTexel;
+    report_.estimatedError =
+      errorIsOfAll ? error : errorOfAll(error, task_.receivers.size(), group_);
+    report_.maximum = result.table.maximum;
+  }
+
+  BakeTask& task_;
+  const ProcessGroup& group_;
+  Progress& progress_;
+  BakeReport& report_;
+};
+}
+
+int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
+{
+  const bool triangles = group.any(!task.occluders.mesh.triangles.empty());
+  if (method == vtkSphereAmbientOcclusion::Sweep && triangles)
+  {
+    throw std::invalid_argument("Method Sweep does not see the triangles of the input Occluders: "
+                                "choose the Method Automatic or Embree.");
+  }
+  if (method != vtkSphereAmbientOcclusion::Automatic)
+  {
+    return method;
+  }
+  // Sweep is the fastest one for whole sets, wherever its memory is there, but knows spheres only.
+  // Within about two radii the near spheres, which Embree's method tests without rays, are all
+  // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
+  const double distance = task.settings.maximumDistance;
+  const bool close = distance > 0 && distance <= 2 * task.cloud.scale;
+  const bool full = group.any(memoryOf(task, sweepFor(task)) > freeMemory());
+  return triangles || close || full ? vtkSphereAmbientOcclusion::Embree
+                                    : vtkSphereAmbientOcclusion::Sweep;
+}
+
+BakeResult bakeByMethod(
+  int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+{
+  report.method = method;
+  MethodBake bake(task, group, progress, report);
+  switch (method)
+  {
+    case vtkSphereAmbientOcclusion::Sweep:
+      return bake.bySweep();
+    case vtkSphereAmbientOcclusion::Embree:
+      return bake.byEmbree();
+    default:
+      return bake.byReference();
+  }
+}
+}

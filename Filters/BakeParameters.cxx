@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BakeParameters.h"
+
+#include "ExrBackground.h"
+#include "vtkSphereAmbientOcclusion.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace po
+{
+namespace
+{
+/// Version of the layout that AmbientOcclusionParameters describes.
+constexpr int ContractVersion = 1;
+
+constexpr const char* MethodNames[] = { "Automatic", "Sweep", "Embree", "Reference" };
+constexpr const char* BackgroundNames[] = { "Uniform", "Gradient", "Image" };
+constexpr const char* EncodingNames[] = { UInt8Gamma2, Float32Linear };
+
+std::string textOf(const char* text)
+{
+  return text ? text : "";
+}
+
+/// A parameter that is out of its range: throws a message that says the range.
+template <typename T>
+void requireRange(const char* name, T value, T low, T high)
+{
+  if (!(value >= low && value <= high))
+  {
+    std::ostringstream message;
+    message << name << " must be between " << low << " and " << high << ", but is " << value << ".";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+void requireNotNegative(const char* name, double value, const char* zeroMeans = "")
+{
+  if (!(value >= 0) || !std::isfinite(value))
+  {
+    std::ostringstream message;
+    message << name << " must be a number of at least 0" << zeroMeans << ", but is " << value
+            << ".";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+GradientBackground gradientOf(vtkSphereAmbientOcclusion& filter)
+{
+  const double* up = filter.GetBackgroundUp();
+  const GradientBackground gradient{ { up[0], up[1], up[2] }, filter.GetBackgroundBottom(),
+    filter.GetBackgroundTop() };
+  if (!(length(gradient.up) > 0) || !std::isfinite(length(gradient.up)))
+  {
+    throw std::invalid_argument("BackgroundUp must be a direction, not the zero vector.");
+  }
+  requireNotNegative("BackgroundBottom", gradient.bottom);
+  requireNotNegative("BackgroundTop", gradient.top);
+  return gradient;
+}
+
+ImageBackground imageOf(vtkSphereAmbientOcclusion& filter)
+{
+  const std::string file = textOf(filter.GetBackgroundImage());
+  if (file.empty())
+  {
+    throw std::invalid_argument("BackgroundImage is empty: choose an OpenEXR file in latitude and "
+                                "longitude, or another Background.");
+  }
+  LatLongImage image = readLatLongImage(file);
+  return { image.width, image.height, std::move(image.luminance) };
+}
+
+Background backgroundOf(vtkSphereAmbientOcclusion& filter)
+{
+  const int type = filter.GetBackground();
+  requireRange<int>(
+    "Background", type, vtkSphereAmbientOcclusion::Uniform, vtkSphereAmbientOcclusion::Image);
+  if (type == vtkSphereAmbientOcclusion::Gradient)
+  {
+    return gradientOf(filter);
+  }
+  if (type == vtkSphereAmbientOcclusion::Image)
+  {
+    return imageOf(filter);
+  }
+  return UniformBackground{};
+}
+
+void describeBackground(vtkSphereAmbientOcclusion& filter, OcclusionParameters& parameters)
+{
+  parameters.set("background", BackgroundNames[filter.GetBackground()]);
+  if (filter.GetBackground() == vtkSphereAmbientOcclusion::Gradient)
+  {
+    const double* direction = filter.GetBackgroundUp();
+    std::ostringstream up;
+    up.imbue(std::locale::classic());
+    up.precision(17);
+    up << direction[0] << ' ' << direction[1] << ' ' << direction[2];
+    parameters.set("backgroundUp", up.str());
+    parameters.set("backgroundBottom", filter.GetBackgroundBottom());
+    parameters.set("backgroundTop", filter.GetBackgroundTop());
+  }
+  if (filter.GetBackground() == vtkSphereAmbientOcclusion::Image)
+  {
+    parameters.set("backgroundImage", textOf(filter.GetBackgroundImage()));
+  }
+}
+}
+
+BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter)
+{
+  using Filter = vtkSphereAmbientOcclusion;
+  requireRange(
+    "TextureResolution", filter.GetTextureResolution(), 1, BakeSettings::MaximumTextureResolution);
+  requireRange(
+    "SamplesPerTexel", filter.GetSamplesPerTexel(), 1, BakeSettings::MaximumSamplesPerTexel);
+  requireRange("TargetError", filter.GetTargetError(), 0.0, 1.0);
+  requireRange("InsideThreshold", filter.GetInsideThreshold(), 0.0, 1.0);
+  requireRange<int>("Encoding", filter.GetEncoding(), Filter::UInt8Gamma2, Filter::Float32Linear);
+  requireRange("Seed", filter.GetSeed(), 0, VTK_INT_MAX);
+  requireNotNegative("MaximumDistance", filter.GetMaximumDistance(), " (0 = unbounded)");
+  requireRange<int>("Method", filter.GetMethod(), Filter::Automatic, Filter::Reference);
+  BakeSettings settings;
+  settings.textureResolution = filter.GetTextureResolution();
+  settings.samplesPerTexel = filter.GetSamplesPerTexel();
+  settings.maximumDistance = filter.GetMaximumDistance();
+  settings.dilateInside = filter.GetDilateInside();
+  settings.insideThreshold = filter.GetInsideThreshold();
+  settings.encoding = static_cast<Encoding>(filter.GetEncoding());
+  settings.seed = static_cast<std::uint64_t>(filter.GetSeed());
+  settings.background = backgroundOf(filter);
+  return settings;
+}
+
+RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
+{
+  return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius() };
+}
+
+const char* nameOfMethod(int method)
+{
+  return MethodNames[method];
+}
+
+OcclusionParameters describeBake(
+  vtkSphereAmbientOcclusion& filter, const BakeSettings& settings, const BakeReport& report)
+{
+  OcclusionParameters parameters;
+  parameters.set("version", ContractVersion);
+  parameters.set("method", nameOfMethod(report.method));
+  parameters.set("resolution", settings.textureResolution);
+  parameters.set("samplesPerTexel", report.samplesUsed);
+  parameters.set("seed", filter.GetSeed());
+  parameters.set("encoding", EncodingNames[filter.GetEncoding()]);
+  parameters.set("gamma", settings.encoding == Encoding::UInt8Gamma2 ? 2.0 : 1.0);
+  parameters.set("maximum", report.maximum);
+  parameters.set("insideThreshold", settings.insideThreshold);
+  parameters.set("dilateInside", settings.dilateInside);
+  parameters.set("maximumDistance", settings.maximumDistance);
+  parameters.set("radiusArray", textOf(filter.GetRadiusArray()));
+  parameters.set("radiusScale", filter.GetRadiusScale());
+  parameters.set("constantRadius", filter.GetConstantRadius());
+  describeBackground(filter, parameters);
+  parameters.set("targetError", filter.GetTargetError());
+  parameters.set("estimatedError", report.estimatedError);
+  parameters.set("directions", report.directions);
+  parameters.set("occluderTriangles", static_cast<long long>(report.occluderTriangles));
+  parameters.set("occluderSpheres", static_cast<long long>(report.occluderSpheres));
+  parameters.set("refinedParticles", static_cast<long long>(report.refined));
+  return parameters;
+}
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TexelCaps.h"
+
+// Highway compiles this file once for each instruction set (SSE4, AVX2, AVX-512, NEON, ...) and
+// chooses when it runs. No sum is reordered, so that only fused multiply-adds make a difference.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "TexelCaps.cxx"
+#include <hwy/foreach_target.h> // must come before highway.h
+#include <hwy/highway.h>
+
+#include "TexelLanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace po::HWY_NAMESPACE
+{
+void classify(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
+  GroupMask* part)
+{
+  // Rounding may cost time, but never a wrong answer.
+  constexpr float slack = 1e-6f;
+  const Floats d;
+  const auto c = hn::Set(d, cosine);
+  const auto s = hn::Set(d, sine);
+  const std::size_t groups = discs.x.size() / GroupSize;
+  for (std::size_t g = 0; g < groups; ++g)
+  {
+    unsigned all = 0;
+    unsigned none = 0;
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+    {
+      const std::size_t i = g * GroupSize + lane;
+      const auto xy = hn::MulAdd(hn::LoadU(d, discs.y.data() + i), hn::Set(d, axis.y),
+        hn::Mul(hn::LoadU(d, discs.x.data() + i), hn::Set(d, axis.x)));
+      const auto height = hn::MulAdd(hn::LoadU(d, discs.z.data() + i), hn::Set(d, axis.z), xy);
+      const auto cosRadius = hn::LoadU(d, discs.cosRadius.data() + i);
+      const auto sinRadius = hn::LoadU(d, discs.sinRadius.data() + i);
+      // cos(half angle -+ radius), for caps larger than the texel and with a gap larger than it
+      const auto cc = hn::Mul(c, cosRadius);
+      const auto inner = hn::Add(hn::MulAdd(s, sinRadius, cc), hn::Set(d, slack));
+      const auto outer = hn::Sub(hn::NegMulAdd(s, sinRadius, cc), hn::Set(d, slack));
+      all |= bitsOf(d, hn::And(hn::Gt(height, inner), hn::Lt(c, cosRadius))) << lane;
+      none |= bitsOf(d, hn::And(hn::Lt(height, outer), hn::Gt(c, hn::Neg(cosRadius)))) << lane;
+    }
+    covered[g] = static_cast<GroupMask>(all);
+    part[g] = static_cast<GroupMask>(~(all | none));
+  }
+}
+
+void clearBuried(const TexelPatterns& patterns, std::size_t group, const RimCap* caps,
+  std::size_t count, GroupMask* bits, std::size_t stride)
+{
+  const Floats d;
+  for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
+  {
+    unsigned buried = 0;
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+    {
+      const std::size_t i = TexelPatterns::index(pattern, group * GroupSize + lane);
+      const auto x = hn::LoadU(d, patterns.x.data() + i);
+      const auto y = hn::LoadU(d, patterns.y.data() + i);
+      const auto z = hn::LoadU(d, patterns.z.data() + i);
+      auto inside = noLanes(d);
+      for (const RimCap* cap = caps; cap != caps + count; ++cap)
+      {
+        const auto xy = hn::MulAdd(y, hn::Set(d, cap->axis.y), hn::Mul(x, hn::Set(d, cap->axis.x)));
+        const auto height = hn::MulAdd(z, hn::Set(d, cap->axis.z), xy);
+        inside = hn::Or(inside, hn::Gt(height, hn::Set(d, cap->cosine)));
+      }
+      buried |= bitsOf(d, inside) << lane;
+    }
+    GroupMask& mask = bits[pattern * stride];
+    mask = static_cast<GroupMask>(mask & ~buried);
+  }
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace po
+{
+HWY_EXPORT(classify);
+HWY_EXPORT(clearBuried);
+
+void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
+  GroupMask* part)
+{
+  HWY_DYNAMIC_DISPATCH(classify)(discs, axis, cosine, sine, covered, part);
+}
+
+void clearCaps(const TexelPatterns& patterns, std::size_t group, const RimCap* caps,
+  std::size_t count, GroupMask* bits, std::size_t stride)
+{
+  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, caps, count, bits, stride);
+}
+}
+#endif

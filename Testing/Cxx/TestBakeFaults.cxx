@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Whatever fails in a bake: one error, the particles as they came, never part of a table, and the
+// next bake has the bits that it always had.
+#include "BakeFilterTestSupport.h"
+#include "FaultInjection.h"
+#include "MemoryGrowth.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkDataArray.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkObjectFactory.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+
+#include <gtest/gtest.h>
+
+#include <malloc.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace
+{
+using Method = vtkSphereAmbientOcclusion::MethodType;
+
+std::string nameOf(int method)
+{
+  return method == Method::Sweep ? "Sweep" : method == Method::Embree ? "Embree" : "Reference";
+}
+
+/// Runs RequestData alone under a fault: what VTK's pipeline allocates around it is not ours.
+class BakeUnderFault : public vtkSphereAmbientOcclusion
+{
+public:
+  static BakeUnderFault* New();
+  vtkTypeMacro(BakeUnderFault, vtkSphereAmbientOcclusion);
+
+  std::function<void(const std::function<void()>& bake)> fault;
+
+protected:
+  int RequestData(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override
+  {
+    int result = 0;
+    const auto bake = [&] { result = this->Superclass::RequestData(request, input, output); };
+    this->fault ? this->fault(bake) : bake();
+    return result;
+  }
+};
+vtkStandardNewMacro(BakeUnderFault);
+
+std::vector<vtkPolyData*> blocksOf(vtkDataObject* data)
+{
+  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
+  if (!composite)
+  {
+    return { vtkPolyData::SafeDownCast(data) };
+  }
+  std::vector<vtkPolyData*> blocks;
+  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
+  {
+    blocks.push_back(vtkPolyData::SafeDownCast(leaves->GetCurrentDataObject()));
+  }
+  return blocks;
+}
+
+void expectSameArrays(vtkFieldData* expected, vtkFieldData* found)
+{
+  ASSERT_EQ(found->GetNumberOfArrays(), expected->GetNumberOfArrays());
+  for (int i = 0; i < expected->GetNumberOfArrays(); ++i)
+  {
+    EXPECT_EQ(found->GetAbstractArray(i), expected->GetAbstractArray(i));
+  }
+}
+
+/// The very arrays of the input, no more and no less.
+void expectPassedOn(vtkDataObject* input, vtkDataObject* output)
+{
+  const auto expected = blocksOf(input);
+  const auto found = blocksOf(output);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    ASSERT_TRUE(found[i]);
+    EXPECT_EQ(found[i]->GetPoints(), expected[i]->GetPoints());
+    expectSameArrays(expected[i]->GetPointData(), found[i]->GetPointData());
+    expectSameArrays(expected[i]->GetFieldData(), found[i]->GetFieldData());
+  }
+}
+
+/// All that a bake has added, as bytes; empty if any block lacks any of it.
+std::string bitsOf(vtkDataObject* output)
+{
+  std::string bits;
+  for (vtkPolyData* block : blocksOf(output))
+  {
+    vtkDataArray* arrays[] = { block->GetPointData()->GetArray("AmbientOcclusion"),
+      block->GetPointData()->GetArray("AmbientOcclusionTexture"),
+      block->GetFieldData()->GetArray("AmbientOcclusionTextures") };
+    for (vtkDataArray* array : arrays)
+    {
+      if (!array || !block->GetFieldData()->HasArray("AmbientOcclusionParameters"))
+      {
+        return {};
+      }
+      bits.append(static_cast<const char*>(array->GetVoidPointer(0)),
+        static_cast<std::size_t>(array->GetNumberOfValues()) * array->GetDataTypeSize());
+    }
+  }
+  return bits;
+}
+
+vtkSmartPointer<vtkMultiBlockDataSet> twoBlocks()
+{
+  auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  blocks->SetBlock(0, lattice(2));
+  blocks->SetBlock(2, lattice(2, "radius", 2)); // block 1 is empty
+  return blocks;
+}
+
+/// A small bake that can be repeated, with a mesh on the port of occluders where that is possible.
+struct SmallBake
+{
+  vtkNew<BakeUnderFault> filter;
+  vtkSmartPointer<vtkDataObject> input;
+
+  explicit SmallBake(int method, vtkSmartPointer<vtkDataObject> data = lattice(2))
+    : input(std::move(data))
+  {
+    filter->SetInputDataObject(input);
+    filter->SetMethod(method);
+    filter->SetTextureResolution(2);
+    filter->SetSamplesPerTexel(4);
+    if (method != Method::Sweep)
+    {
+      vtkNew<vtkPlaneSource> ground;
+      ground->SetCenter(0, 0, -1);
+      ground->Update();
+      filter->SetInputDataObject(vtkSphereAmbientOcclusion::OccludersPort, ground->GetOutput());
+    }
+  }
+
+  [[nodiscard]] vtkDataObject* output() const { return filter->GetOutputDataObject(0); }
+
+  std::string bits()
+  {
+    filter->fault = nullptr;
+    filter->Modified();
+    EXPECT_EQ(errorOf(filter), "");
+    EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+    return bitsOf(output());
+  }
+
+  /// Bakes under a fault. Either it went well, with the given bits, or there is one error and the
+  /// input comes out; then the error is returned.
+  std::string errorUnder(
+    const std::function<void(const std::function<void()>&)>& fault, const std::string& wholeBits)
+  {
+    filter->fault = fault;
+    filter->Modified();
+    ErrorCatcher errors(filter);
+    filter->Update();
+    EXPECT_LE(errors.count(), 1) << errors.text();
+    if (errors.count() == 0)
+    {
+      EXPECT_TRUE(bitsOf(output()) == wholeBits)
+        << "a fault changed the result and nothing was said";
+      return {};
+    }
+    EXPECT_NE(filter->GetErrorCode(), vtkErrorCode::NoError);
+    expectPassedOn(input, output());
+    EXPECT_EQ(filter->GetNumberOfParticles(), 0) << "counters of a bake that failed";
+    return errors.text();
+  }
+};
+
+class BakeFaults : public testing::TestWithParam<int>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Methods, BakeFaults,
+  testing::Values(Method::Sweep, Method::Embree, Method::Reference),
+  [](const auto& info) { return nameOf(info.param); });
+
+TEST_P(BakeFaults, EveryAllocationMayFail)
+{
+  for (const bool composite : { false, true })
+  {
+    SmallBake bake(GetParam(),
+      composite ? vtkSmartPointer<vtkDataObject>(twoBlocks())
+                : vtkSmartPointer<vtkDataObject>(lattice(2)));
+    const std::string whole = bake.bits();
+    ASSERT_FALSE(whole.empty());
+    std::size_t all = 0;
+    bake.errorUnder(
+      [&](const auto& run)
+      {
+        const FailingAllocation none(0);
+        run();
+        all = FailingAllocation::count();
+      },
+      whole);
+    int failures = 0;
+    int faults = 0;
+    for (std::size_t n = 1; n <= all; ++n)
+    {
+      const std::string error = bake.errorUnder(
+        [n](const auto& run)
+        {
+          const FailingAllocation failing(n);
+          run();
+        },
+        whole);
+      ++faults;
+      failures += !error.empty();
+      // Embree does not know the reason of every failure of its own.
+      EXPECT_TRUE(error.empty() || error.find("emory") != std::string::npos ||
+        error.find("Embree failed") != std::string::npos)
+        << error;
+      ASSERT_FALSE(testing::Test::HasFailure()) << "allocation " << n << " of " << all;
+    }
+    std::printf("%d allocations made to fail, of %zu: %d errors\n", faults, all, failures);
+    EXPECT_GT(failures, 50);
+    EXPECT_TRUE(bake.bits() == whole);
+  }
+}
+
+TEST_P(BakeFaults, EveryCallOfEmbreeMayFail)
+{
+  SmallBake bake(GetParam());
+  const std::string whole = bake.bits();
+  const struct
+  {
+    RTCError error;
+    const char* says;
+  } reasons[] = { { RTC_ERROR_OUT_OF_MEMORY, "emory" }, { RTC_ERROR_UNSUPPORTED_CPU, "Embree" },
+    { RTC_ERROR_UNKNOWN, "Embree" } };
+  int failures = 0;
+  for (const EmbreeCall call : { EmbreeCall::NewDevice, EmbreeCall::NewScene,
+         EmbreeCall::NewGeometry, EmbreeCall::NewBuffer, EmbreeCall::CommitScene })
+  {
+    for (const auto& reason : reasons)
+    {
+      bool hit = true;
+      for (int n = 1; hit; ++n)
+      {
+        const std::string error = bake.errorUnder(
+          [&](const auto& run)
+          {
+            const FailingEmbree failing(call, n, reason.error);
+            run();
+            hit = FailingEmbree::hit();
+          },
+          whole);
+        EXPECT_EQ(error.empty(), !hit) << "call " << static_cast<int>(call) << ", " << n;
+        EXPECT_TRUE(!hit || error.find(reason.says) != std::string::npos ||
+          (call == EmbreeCall::NewBuffer && error.find("emory") != std::string::npos))
+          << error;
+        failures += hit;
+      }
+    }
+  }
+  EXPECT_GE(failures, 3 * 8) << "two devices, scenes, geometries and commits at least";
+  EXPECT_TRUE(bake.bits() == whole);
+}
+
+TEST_P(BakeFaults, EmbreeMayRunOutOfMemory)
+{
+  SmallBake bake(GetParam(), lattice(5));
+  const std::string whole = bake.bits();
+  int failures = 0;
+  for (std::ptrdiff_t bytes = 1; bytes < (std::ptrdiff_t{ 1 } << 30); bytes *= 2)
+  {
+    const std::string error = bake.errorUnder(
+      [&](const auto& run)
+      {
+        const EmbreeMemoryLimit limit(bytes);
+        run();
+      },
+      whole);
+    EXPECT_TRUE(error.empty() || error.find("emory") != std::string::npos) << error;
+    failures += !error.empty();
+  }
+  EXPECT_GT(failures, 5);
+  EXPECT_LT(failures, 30);
+  EXPECT_TRUE(bake.bits() == whole);
+}
+
+TEST_P(BakeFaults, AbortsLeaveTheInputAndTheNextBakeItsBits)
+{
+  SmallBake bake(GetParam(), lattice(7));
+  bake.filter->SetTextureResolution(GetParam() == Method::Sweep ? 32 : 16);
+  bake.filter->SetSamplesPerTexel(GetParam() == Method::Sweep ? 400 : 49);
+  const std::string whole = bake.bits();
+  std::mt19937 random(20261126);
+  struct Stop
+  {
+    int after;
+    int reports = 0;
+  } stop{};
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&stop);
+  command->SetCallback(
+    [](vtkObject* caller, unsigned long, void* client, void*)
+    {
+      auto& at = *static_cast<Stop*>(client);
+      if (++at.reports >= at.after)
+      {
+        vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+      }
+    });
+  const auto tag = bake.filter->AddObserver(vtkCommand::ProgressEvent, command);
+  int aborted = 0;
+  for (int i = 0; i < 10; ++i)
+  {
+    stop = { 2 + static_cast<int>(random() % 3) };
+    bake.filter->Modified();
+    EXPECT_EQ(errorOf(bake.filter), "");
+    bake.filter->SetAbortExecute(0);
+    const std::string bits = bitsOf(bake.output());
+    if (bits.empty())
+    {
+      ++aborted;
+      expectPassedOn(bake.input, bake.output());
+    }
+    else
+    {
+      EXPECT_TRUE(bits == whole); // the abort came after the last question for it
+    }
+  }
+  bake.filter->RemoveObserver(tag);
+  EXPECT_GT(aborted, 0);
+  EXPECT_TRUE(bake.bits() == whole);
+}
+
+/// Lets this process have `bytes` of address space more than it has. Memory that it holds already,
+/// TBB's threads too, stays.
+class AddressSpaceLimit
+{
+public:
+  explicit AddressSpaceLimit(rlim_t bytes)
+  {
+    malloc_trim(0); // what was freed before would come on top
+    getrlimit(RLIMIT_AS, &before_);
+    long pages = 0;
+    if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
+    {
+      EXPECT_EQ(std::fscanf(file, "%ld", &pages), 1);
+      std::fclose(file);
+    }
+    const rlimit limit = { static_cast<rlim_t>(pages) * 4096 + bytes, before_.rlim_max };
+    setrlimit(RLIMIT_AS, &limit);
+  }
+  ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
+  AddressSpaceLimit(const AddressSpaceLimit&) = delete;
+  AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
+
+private:
+  rlimit before_ = {};
+};
+
+#ifndef PARTICLEOCCLUSION_SANITIZED // sanitizers need more address space than there is
+TEST_P(BakeFaults, TheSystemMayRefuseMemory)
+{
+  // 16 MB of textures, more than once; of the slow reference 1 MB.
+  SmallBake bake(GetParam(), lattice(10));
+  bake.filter->SetTextureResolution(GetParam() == Method::Reference ? 16 : 64);
+  bake.filter->SetSamplesPerTexel(1);
+  bake.filter->SetMaximumDistance(0.1);
+  bake.filter->SetEncoding(vtkSphereAmbientOcclusion::Float32Linear);
+  const std::string whole = bake.bits();
+  int failures = 0;
+  for (rlim_t megabytes : { 1, 3, 6, 12, 20, 30, 40, 50, 60, 70, 80, 100 })
+  {
+    const std::string error = bake.errorUnder(
+      [&](const auto& run)
+      {
+        const AddressSpaceLimit limit(megabytes << 20);
+        run();
+      },
+      whole);
+    EXPECT_TRUE(error.empty() || error.find("emory") != std::string::npos) << error;
+    failures += !error.empty();
+  }
+  EXPECT_GT(failures, 2);
+  EXPECT_TRUE(bake.bits() == whole);
+}
+#endif
+
+/// What the filter may use, in megabytes above what the process has.
+class Budget
+{
+public:
+  explicit Budget(double megabytes)
+  {
+    const double kibibytes = 1024 * (residentMegabytes() + megabytes);
+    setenv(Variable, std::to_string(static_cast<long long>(kibibytes)).c_str(), 1);
+  }
+  ~Budget() { unsetenv(Variable); }
+  Budget(const Budget&) = delete;
+  Budget& operator=(const Budget&) = delete;
+
+private:
+  static constexpr const char* Variable = "PARTICLEOCCLUSION_MEMORY_LIMIT";
+};
+
+TEST(MemoryBudget, AutomaticTakesEmbreeWhereSweepDoesNotFit)
+{
+  const auto input = lattice(20);
+  const auto methodUnder = [&](int method, double megabytes, std::string& error)
+  {
+    const Budget budget(megabytes);
+    vtkNew<vtkSphereAmbientOcclusion> filter;
+    filter->SetInputData(input);
+    filter->SetTextureResolution(64);
+    filter->SetMethod(method);
+    // The method is chosen before the first report, so nothing need be baked.
+    vtkNew<vtkCallbackCommand> stop;
+    stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+      { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
+    filter->AddObserver(vtkCommand::ProgressEvent, stop);
+    error = errorOf(filter);
+    expectPassedOn(input, filter->GetOutputDataObject(0));
+    return std::string(filter->GetMethodUsed());
+  };
+  std::string error;
+  // 8000 * 64 * 64 texels: 190 MB for Embree, 600 MB for Sweep (see bakeMemory).
+  EXPECT_EQ(methodUnder(Method::Automatic, 2000, error), "Sweep");
+  EXPECT_EQ(error, "");
+  EXPECT_EQ(methodUnder(Method::Automatic, 400, error), "Embree");
+  EXPECT_EQ(error, "");
+  for (const auto& [method, megabytes] :
+    { std::pair(Method::Automatic, 100), std::pair(Method::Sweep, 400),
+      std::pair(Method::Embree, 100), std::pair(Method::Reference, 100) })
+  {
+    methodUnder(method, megabytes, error);
+    EXPECT_NE(error.find("are free: lower TextureResolution"), std::string::npos) << error;
+  }
+}
+}

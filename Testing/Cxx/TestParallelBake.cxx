@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several processes bake one set: each result is compared with a bake of the whole set by one
+// process alone. Run by mpiexec with any number of processes.
+
+#include "BakeFilterTestSupport.h"
+#include "Random.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkDataArray.h"
+#include "vtkMPIController.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace
+{
+vtkMultiProcessController* processes()
+{
+  return vtkMultiProcessController::GetGlobalController();
+}
+
+int rank()
+{
+  return processes()->GetLocalProcessId();
+}
+
+int size()
+{
+  return processes()->GetNumberOfProcesses();
+}
+
+/// Which process a particle belongs to.
+using Owner = std::function<int(vtkIdType)>;
+
+int interleaved(vtkIdType i)
+{
+  return static_cast<int>(i % size());
+}
+
+/// Overlapping spheres of many sizes, far from the origin.
+vtkSmartPointer<vtkPolyData> mixedCloud(int count, bool withRadii = true)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> radii;
+  radii->SetName("radius");
+  po::Random random(11, 0, 0);
+  const auto coordinate = [&] { return 1000 + std::cbrt(count) * random.uniform(); };
+  for (int i = 0; i < count; ++i)
+  {
+    points->InsertNextPoint(coordinate(), coordinate(), coordinate());
+    radii->InsertNextValue(0.1 + 0.5 * random.uniform());
+  }
+  data->SetPoints(points);
+  if (withRadii)
+  {
+    data->GetPointData()->AddArray(radii);
+  }
+  return data;
+}
+
+/// A part of the particles in reverse order, with the numbers they have in the whole set.
+vtkSmartPointer<vtkPolyData> part(vtkPolyData* whole, const std::function<bool(vtkIdType)>& keep)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName("number");
+  vtkDataArray* radii = whole->GetPointData()->GetArray("radius");
+  vtkNew<vtkDoubleArray> keptRadii;
+  keptRadii->SetName("radius");
+  for (vtkIdType i = whole->GetNumberOfPoints() - 1; i >= 0; --i)
+  {
+    if (keep(i))
+    {
+      points->InsertNextPoint(whole->GetPoint(i));
+      numbers->InsertNextValue(i);
+      keptRadii->InsertNextValue(radii ? radii->GetComponent(i, 0) : 0);
+    }
+  }
+  data->SetPoints(points);
+  data->GetPointData()->AddArray(numbers);
+  if (radii)
+  {
+    data->GetPointData()->AddArray(keptRadii);
+  }
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> ownPart(vtkPolyData* whole, const Owner& owner)
+{
+  return part(whole, [&](vtkIdType i) { return owner(i) == rank(); });
+}
+
+/// Means and textures, value by value: the number of particles that differ, and the largest
+/// difference.
+struct Difference
+{
+  int particles = 0;
+  double largest = 0;
+};
+
+Difference difference(vtkPolyData* whole, vtkPolyData* own)
+{
+  Difference found;
+  vtkDataArray* numbers = own->GetPointData()->GetArray("number");
+  vtkDataArray* wholeTable = whole->GetFieldData()->GetArray("AmbientOcclusionTextures");
+  vtkDataArray* ownTable = own->GetFieldData()->GetArray("AmbientOcclusionTextures");
+  const auto at = [](vtkPolyData* data, const char* name, vtkIdType i)
+  { return data->GetPointData()->GetArray(name)->GetComponent(i, 0); };
+  for (vtkIdType i = 0; i < own->GetNumberOfPoints(); ++i)
+  {
+    const auto number = static_cast<vtkIdType>(numbers->GetComponent(i, 0));
+    double largest =
+      std::abs(at(whole, "AmbientOcclusion", number) - at(own, "AmbientOcclusion", i));
+    const auto wholeRow = static_cast<vtkIdType>(at(whole, "AmbientOcclusionTexture", number));
+    const auto ownRow = static_cast<vtkIdType>(at(own, "AmbientOcclusionTexture", i));
+    EXPECT_EQ(wholeRow < 0, ownRow < 0) << number;
+    for (int k = 0; ownRow >= 0 && k < ownTable->GetNumberOfComponents(); ++k)
+    {
+      largest = std::max(largest,
+        std::abs(wholeTable->GetComponent(wholeRow, k) - ownTable->GetComponent(ownRow, k)));
+    }
+    found.particles += largest > 0;
+    found.largest = std::max(found.largest, largest);
+  }
+  return found;
+}
+
+using Prepare = std::function<void(vtkSphereAmbientOcclusion*)>;
+
+/// @param together all processes, or this one by itself
+vtkSmartPointer<vtkSphereAmbientOcclusion> bake(
+  vtkPolyData* particles, bool together, const Prepare& prepare)
+{
+  auto filter = vtkSmartPointer<vtkSphereAmbientOcclusion>::New();
+  filter->SetController(together ? processes() : nullptr);
+  filter->SetTextureResolution(8);
+  filter->SetEncoding(vtkSphereAmbientOcclusion::Float32Linear);
+  filter->SetInputData(particles);
+  prepare(filter);
+  filter->Update();
+  return filter;
+}
+
+vtkPolyData* output(vtkSphereAmbientOcclusion* filter)
+{
+  return vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
+}
+
+Difference differenceFromAlone(vtkPolyData* whole, const Owner& owner, const Prepare& prepare)
+{
+  const auto alone = bake(whole, false, prepare);
+  const auto together = bake(ownPart(whole, owner), true, prepare);
+  EXPECT_EQ(together->GetNumberOfParticles(), alone->GetNumberOfParticles());
+  EXPECT_EQ(together->GetNumberOfTexels(), alone->GetNumberOfTexels());
+  EXPECT_EQ(together->GetNumberOfParticlesDark(), alone->GetNumberOfParticlesDark());
+  EXPECT_EQ(together->GetNumberOfParticlesLeftOut(), alone->GetNumberOfParticlesLeftOut());
+  EXPECT_EQ(together->GetNumberOfDirections(), alone->GetNumberOfDirections());
+  EXPECT_STREQ(together->GetMethodUsed(), alone->GetMethodUsed());
+  EXPECT_GT(alone->GetNumberOfTextures(), 10);
+  return difference(output(alone), output(together));
+}
+
+class ParallelBake : public testing::TestWithParam<int>
+{
+};
+
+TEST_P(ParallelBake, SameBitsHoweverTheParticlesAreDistributed)
+{
+  const auto whole = mixedCloud(600);
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetMethod(GetParam());
+    filter->SetSamplesPerTexel(16);
+  };
+  const vtkIdType half = whole->GetNumberOfPoints() / 2;
+  for (const Owner& owner :
+    { Owner(interleaved), Owner([&](vtkIdType i) { return i < half ? 0 : size() - 1; }),
+      Owner([](vtkIdType) { return size() - 1; }) })
+  {
+    EXPECT_EQ(differenceFromAlone(whole, owner, prepare).particles, 0);
+  }
+}
+
+TEST_P(ParallelBake, SameWithATargetError)
+{
+  const auto whole = mixedCloud(300);
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetMethod(GetParam());
+    filter->SetTextureResolution(4);
+    filter->SetTargetError(0.03);
+  };
+  EXPECT_EQ(differenceFromAlone(whole, interleaved, prepare).particles, 0);
+  const auto together = bake(ownPart(whole, interleaved), true, prepare);
+  EXPECT_GT(together->GetEstimatedError(), 0);
+  EXPECT_LE(together->GetEstimatedError(), 0.03);
+}
+
+TEST_P(ParallelBake, WithAMaximumDistanceAHaloIsEnough)
+{
+  const auto whole = mixedCloud(2000);
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetMethod(GetParam());
+    filter->SetTextureResolution(4);
+    filter->SetSamplesPerTexel(16);
+    filter->SetMaximumDistance(1.5);
+  };
+  const auto owner = [&](vtkIdType i)
+  {
+    const double share = (whole->GetPoint(i)[0] - 1000) / std::cbrt(2000.0);
+    return std::min(static_cast<int>(share * size()), size() - 1);
+  };
+  const Difference found = differenceFromAlone(whole, owner, prepare);
+  EXPECT_LE(found.largest, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, ParallelBake,
+  testing::Values(vtkSphereAmbientOcclusion::Sweep, vtkSphereAmbientOcclusion::Embree,
+    vtkSphereAmbientOcclusion::Reference));
+
+TEST(ParallelBakeFilter, EstimatesOneRadiusForAll)
+{
+  const auto whole = mixedCloud(2500, false);
+  // One half is thin, the other dense: each alone would have another spacing.
+  const auto owner = [](vtkIdType i) { return i % 10 == 0 ? 0 : size() - 1; };
+  EXPECT_EQ(differenceFromAlone(whole, owner, [](vtkSphereAmbientOcclusion*) {}).particles, 0);
+}
+
+TEST(ParallelBakeFilter, GhostsCountOnce)
+{
+  const auto whole = mixedCloud(400);
+  // Everybody also has a copy of every third particle of the others.
+  const auto own = part(whole, [](vtkIdType i) { return interleaved(i) == rank() || i % 3 == 0; });
+  vtkDataArray* numbers = own->GetPointData()->GetArray("number");
+  vtkNew<vtkUnsignedCharArray> ghosts;
+  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (vtkIdType i = 0; i < own->GetNumberOfPoints(); ++i)
+  {
+    const auto number = static_cast<vtkIdType>(numbers->GetComponent(i, 0));
+    ghosts->InsertNextValue(
+      interleaved(number) == rank() ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
+  }
+  own->GetPointData()->AddArray(ghosts);
+  const auto nothing = [](vtkSphereAmbientOcclusion*) {};
+  const auto alone = bake(whole, false, nothing);
+  const auto together = bake(own, true, nothing);
+  EXPECT_EQ(together->GetNumberOfParticles(), 400);
+  EXPECT_EQ(difference(output(alone), output(together)).particles, 0); // of the ghosts too
+}
+
+TEST(ParallelBakeFilter, OccludersOfAllProcessesCount)
+{
+  const auto whole = mixedCloud(200);
+  const double low = 999, high = 1001 + std::cbrt(200.0);
+  vtkNew<vtkPolyData> floor;
+  vtkNew<vtkPoints> corners;
+  corners->InsertNextPoint(low, low, low);
+  corners->InsertNextPoint(high, low, low);
+  corners->InsertNextPoint(high, high, low);
+  corners->InsertNextPoint(low, high, low);
+  vtkNew<vtkCellArray> polygons;
+  polygons->InsertNextCell({ 0, 1, 2, 3 });
+  floor->SetPoints(corners);
+  floor->SetPolys(polygons);
+  vtkNew<vtkPolyData> ball;
+  vtkNew<vtkPoints> center;
+  center->InsertNextPoint(1002, 1002, high + 2);
+  vtkNew<vtkDoubleArray> radius;
+  radius->SetName("radius");
+  radius->InsertNextValue(2);
+  ball->SetPoints(center);
+  ball->GetPointData()->AddArray(radius);
+
+  const auto occluders = [&](bool withFloor, bool withBall)
+  {
+    auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+    blocks->SetBlock(0, withFloor ? floor.Get() : nullptr);
+    blocks->SetBlock(1, withBall ? ball.Get() : nullptr);
+    return blocks;
+  };
+  for (const double distance : { 0.0, 4.0 })
+  {
+    const auto with = [&](vtkDataObject* data)
+    {
+      return [=](vtkSphereAmbientOcclusion* filter)
+      {
+        filter->SetInputDataObject(vtkSphereAmbientOcclusion::OccludersPort, data);
+        filter->SetMaximumDistance(distance);
+      };
+    };
+    const auto alone = bake(whole, false, with(occluders(true, true)));
+    const auto together =
+      bake(ownPart(whole, interleaved), true, with(occluders(rank() == 0, rank() == size() - 1)));
+    EXPECT_STREQ(together->GetMethodUsed(), "Embree");
+    EXPECT_EQ(parameter(output(together)->GetFieldData(), "occluderTriangles"), "2");
+    EXPECT_EQ(parameter(output(together)->GetFieldData(), "occluderSpheres"), "1");
+    EXPECT_LE(difference(output(alone), output(together)).largest, distance > 0 ? 1e-4 : 0);
+    const auto without = bake(ownPart(whole, interleaved), true, [](vtkSphereAmbientOcclusion*) {});
+    EXPECT_GT(difference(output(alone), output(without)).largest, 0.1);
+  }
+}
+
+TEST(ParallelBakeFilter, TablesOfAllProcessesHaveOneScale)
+{
+  const auto whole = lattice(5);
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetEncoding(vtkSphereAmbientOcclusion::UInt8Gamma2);
+    filter->SetBackground(vtkSphereAmbientOcclusion::Gradient);
+    filter->SetBackgroundTop(3);
+  };
+  const auto owner = [](vtkIdType i) { return i < 25 ? 0 : size() - 1; }; // the lowest layer
+  const auto alone = bake(whole, false, prepare);
+  const auto together = bake(ownPart(whole, owner), true, prepare);
+  EXPECT_EQ(difference(output(alone), output(together)).particles, 0);
+  EXPECT_EQ(parameter(output(alone)->GetFieldData(), "maximum"),
+    parameter(output(together)->GetFieldData(), "maximum"));
+}
+
+TEST(ParallelBakeFilter, AnErrorOfOneProcessIsTheErrorOfAll)
+{
+  const auto data = ownPart(mixedCloud(100), interleaved);
+  if (rank() == size() - 1)
+  {
+    data->GetPointData()->RemoveArray("radius");
+  }
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetController(processes());
+  filter->SetRadiusArray("radius");
+  filter->SetInputData(data);
+  const std::string error = errorOf(filter);
+  EXPECT_EQ(output(filter)->GetNumberOfPoints(), 0);
+  if (rank() == 0)
+  {
+    const bool tellsWho =
+      error.find("Process " + std::to_string(size() - 1) + ": ") != std::string::npos;
+    EXPECT_EQ(tellsWho, size() > 1) << error;
+    EXPECT_NE(error.find("'radius'"), std::string::npos) << error;
+  }
+  else
+  {
+    EXPECT_EQ(error, "");
+  }
+  filter->SetRadiusArray("(none)"); // the next execution is not disturbed
+  EXPECT_EQ(errorOf(filter), "");
+  EXPECT_EQ(filter->GetNumberOfParticles(), 100);
+}
+
+TEST(ParallelBakeFilter, NoPointsAnywhereIsAnError)
+{
+  vtkNew<vtkPolyData> nothing;
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetController(processes());
+  filter->SetInputData(nothing);
+  const std::string error = errorOf(filter);
+  EXPECT_EQ(error.find("no points") != std::string::npos, rank() == 0) << error;
+}
+
+TEST(ParallelBakeFilter, AProcessWithoutParticlesHasTheArraysToo)
+{
+  const auto whole = mixedCloud(50);
+  const auto together =
+    bake(ownPart(whole, [](vtkIdType) { return 0; }), true, [](vtkSphereAmbientOcclusion*) {});
+  for (const char* name : { "AmbientOcclusion", "AmbientOcclusionTexture" })
+  {
+    ASSERT_NE(output(together)->GetPointData()->GetArray(name), nullptr);
+  }
+  EXPECT_NE(output(together)->GetFieldData()->GetArray("AmbientOcclusionTextures"), nullptr);
+}
+
+void abortOnLastProcess(vtkObject* caller, unsigned long, void* count, void*)
+{
+  if (rank() == size() - 1)
+  {
+    ++*static_cast<int*>(count);
+    vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1);
+  }
+}
+
+TEST(ParallelBakeFilter, WhenOneIsAbortedAllAre)
+{
+  const auto data = ownPart(mixedCloud(1500), interleaved);
+  int calls = 0;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetCallback(abortOnLastProcess);
+  command->SetClientData(&calls);
+  vtkNew<vtkSphereAmbientOcclusion> filter;
+  filter->SetController(processes());
+  filter->SetMethod(vtkSphereAmbientOcclusion::Reference);
+  filter->SetInputData(data);
+  filter->AddObserver(vtkCommand::ProgressEvent, command);
+  EXPECT_EQ(errorOf(filter), "");
+  EXPECT_EQ(calls > 0, rank() == size() - 1);
+  if (rank() != size() - 1) // there VTK itself empties the output
+  {
+    EXPECT_EQ(output(filter)->GetNumberOfPoints(), data->GetNumberOfPoints());
+  }
+  EXPECT_EQ(output(filter)->GetPointData()->GetArray("AmbientOcclusion"), nullptr);
+}
+}
+
+int main(int argc, char* argv[])
+{
+  vtkNew<vtkMPIController> controller;
+  controller->Initialize(&argc, &argv);
+  vtkMultiProcessController::SetGlobalController(controller);
+  testing::InitGoogleTest(&argc, argv);
+  const int failed = RUN_ALL_TESTS();
+  controller->Finalize();
+  return failed;
+}
