@@ -8,8 +8,10 @@
 #include "SweepEstimator.h"
 #include "vtkSphereAmbientOcclusion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace po
 {
@@ -115,6 +117,30 @@ private:
   Progress& progress_;
   BakeReport& report_;
 };
+}
+
+std::vector<unsigned> distinct(std::vector<unsigned> numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+BakeResult inOrderOf(
+  const std::vector<unsigned>& places, const std::vector<unsigned>& receivers, BakeResult result)
+{
+  const std::vector<std::int32_t> rows = std::move(result.rowOf);
+  const std::vector<float> means = std::move(result.mean);
+  result.rowOf.clear();
+  result.mean.clear();
+  for (const unsigned place : places)
+  {
+    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), place);
+    const auto index = static_cast<std::size_t>(receiver - receivers.begin());
+    result.rowOf.push_back(rows[index]);
+    result.mean.push_back(means[index]);
+  }
+  return result;
 }
 
 int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)

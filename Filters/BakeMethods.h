@@ -37,6 +37,13 @@ struct BakeTask
   double targetError = 0;
 };
 
+/// The numbers in ascending order, each once.
+[[nodiscard]] std::vector<unsigned> distinct(std::vector<unsigned> numbers);
+
+/// From the order of `receivers`, which is ascending, to that of `places`, which are among them.
+[[nodiscard]] BakeResult inOrderOf(
+  const std::vector<unsigned>& places, const std::vector<unsigned>& receivers, BakeResult result);
+
 /// The method that Automatic stands for: the same on all processes.
 /// Throws std::invalid_argument for a method that cannot bake the task.
 [[nodiscard]] int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group);

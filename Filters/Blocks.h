@@ -10,6 +10,7 @@
 
 #include <vector>
 
+class vtkCompositeDataSet;
 class vtkDataObject;
 class vtkDataSet;
 class vtkPointSet;
@@ -21,6 +22,10 @@ namespace po
 /// are borrowed from `data`.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::vector<vtkDataSet*> blocksWithPoints(
   vtkDataObject* data);
+
+/// Flat index of each of blocksWithPoints(data), as vtkCompositeDataIterator counts.
+[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::vector<unsigned> flatIndicesOfBlocks(
+  vtkCompositeDataSet* data);
 
 /// Points and point data without cells, which would only cost memory when blocks are appended.
 [[nodiscard]] vtkSmartPointer<vtkPolyData> withoutCells(vtkPointSet& block);

@@ -16,8 +16,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
-#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -33,31 +33,6 @@ po::Progress::Report reportTo(vtkAlgorithm* algorithm)
     algorithm->UpdateProgress(share);
     return !algorithm->CheckAbort();
   };
-}
-
-std::vector<unsigned> distinct(std::vector<unsigned> numbers)
-{
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  return numbers;
-}
-
-/// From the order of `receivers`, which is ascending, to that of `places`.
-po::BakeResult inOrderOf(const std::vector<unsigned>& places,
-  const std::vector<unsigned>& receivers, po::BakeResult result)
-{
-  const std::vector<std::int32_t> rows = std::move(result.rowOf);
-  const std::vector<float> means = std::move(result.mean);
-  result.rowOf.clear();
-  result.mean.clear();
-  for (const unsigned place : places)
-  {
-    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), place);
-    const auto index = static_cast<std::size_t>(receiver - receivers.begin());
-    result.rowOf.push_back(rows[index]);
-    result.mean.push_back(means[index]);
-  }
-  return result;
 }
 }
 
@@ -108,7 +83,7 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
     group.stop(po::WorkState::Aborted);
     throw po::WorkStopped(po::WorkState::Aborted, "");
   }
-  result = inOrderOf(particles.Places, task.receivers, std::move(result));
+  result = po::inOrderOf(particles.Places, task.receivers, std::move(result));
   this->CountParticles(particles, result, settings, group);
   const double error = this->Report.estimatedError;
   if (self->TargetError > 0 && error > self->TargetError && group.rank() == 0)
@@ -177,7 +152,7 @@ po::BakeTask vtkSphereAmbientOcclusion::Internals::MakeTask(vtkSphereAmbientOccl
   task.cloud.scale = own.scale;
   task.cloud.spheres = std::move(shared.spheres);
   task.cloud.centers = std::move(shared.centers);
-  task.receivers = distinct(particles.Places);
+  task.receivers = po::distinct(particles.Places);
   task.occluders = po::shareOccluders(std::move(occluders), neighbourhood, group);
   task.settings = settings;
   task.targetError = self->TargetError;
@@ -249,7 +224,7 @@ int vtkSphereAmbientOcclusion::RequestData(
     this->Impl->Bake(this, group, po::particleBlocks(output), occluders);
   };
   std::string error;
-  if (!po::runTogether(group, bake, error))
+  if (!po::runTogether(group, std::ref(bake), error)) // a copy would be memory that may be missing
   {
     *this->Impl = Internals();
     output->ShallowCopy(input); // without what some blocks may have got before the fault

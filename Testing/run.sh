@@ -1,13 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Sets up, builds and runs all tests on a virtual display, then those with sanitizers
-# (Testing/sanitizers.sh). Arguments go to ctest (-R NAME, ...); with any there are no sanitizers.
+# Sets up, builds and runs all tests on a virtual display. Arguments go to ctest (-R NAME, ...).
+# With --sanitizers as the first one, the tests of Testing/sanitizers.sh follow.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 configure_and_build default
 
+sanitizers=false
+if [[ ${1-} == --sanitizers ]]; then
+  sanitizers=true
+  shift
+fi
 cd "$source_dir"
 # Without -noreset the X server restarts whenever its last client leaves, and the next one may fail.
 xvfb-run -a -s "-noreset -screen 0 1280x1024x24" \
   ctest --preset default --parallel "$(nproc)" "$@"
-(($#)) || exec bash Testing/sanitizers.sh
+if $sanitizers; then
+  bash Testing/sanitizers.sh
+fi

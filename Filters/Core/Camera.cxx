@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +36,28 @@ WindowFunction<Vec3d> transformPoints(const Matrix4& a, const WindowFunction<Vec
 WindowFunction<Vec3d> transformVectors(const Matrix4& a, const WindowFunction<Vec3d>& f)
 {
   return { transformVector(a, f.base), transformVector(a, f.dx), transformVector(a, f.dy) };
+}
+
+std::array<Vec3d, 8> corners(Vec3d low, Vec3d high)
+{
+  std::array<Vec3d, 8> points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points[i] = { (i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y, (i & 4) ? high.z : low.z };
+  }
+  return points;
+}
+
+/// The factor of all lengths, or 0 if directions differ by more than rounding.
+double evenScale(const Matrix4& a)
+{
+  const Vec3d x = transformVector(a, { 1, 0, 0 }), y = transformVector(a, { 0, 1, 0 }),
+              z = transformVector(a, { 0, 0, 1 });
+  const double squared = dot(x, x), tolerance = 1e-14 * squared;
+  const bool even = std::abs(dot(y, y) - squared) <= tolerance &&
+    std::abs(dot(z, z) - squared) <= tolerance && std::abs(dot(x, y)) <= tolerance &&
+    std::abs(dot(y, z)) <= tolerance && std::abs(dot(z, x)) <= tolerance;
+  return even ? std::sqrt(squared) : 0;
 }
 
 bool isFinite(const Matrix4& a)
@@ -118,16 +141,17 @@ std::optional<PrimaryRays> PrimaryRays::make(const Camera& camera, const Matrix4
     return std::nullopt;
   }
   PrimaryRays rays;
-  rays.width_ = camera.width;
-  rays.height_ = camera.height;
+  rays.f_.width = camera.width;
+  rays.f_.height = camera.height;
   rays.localToWorld_ = localToWorld;
+  rays.f_.worldPerLocal = evenScale(localToWorld);
   rays.worldToLocal_ = *worldToLocal;
   rays.localToClip_ = multiply(camera.eyeToClip, multiply(camera.worldToEye, localToWorld));
   rays.setEyeRays(camera.eyeToClip);
   rays.worldOrigin_ = transformPoints(*eyeToWorld, rays.eyeOrigin_);
-  rays.worldDirection_ = transformVectors(*eyeToWorld, rays.eyeDirection_);
-  rays.localOrigin_ = transformPoints(*worldToLocal, rays.worldOrigin_);
-  rays.localDirection_ = transformVectors(*worldToLocal, rays.worldDirection_);
+  rays.f_.worldDirection = transformVectors(*eyeToWorld, rays.eyeDirection_);
+  rays.f_.localOrigin = transformPoints(*worldToLocal, rays.worldOrigin_);
+  rays.f_.localDirection = transformVectors(*worldToLocal, rays.f_.worldDirection);
   return rays;
 }
 
@@ -140,6 +164,7 @@ void PrimaryRays::setEyeRays(const Matrix4& p)
   const Vec3d axis = cross(p0, p1);
   const double sign = dot(perspective ? p3 : p2, axis) < 0 ? -1 : 1;
   eyeDirection_ = { sign * axis, sign * cross(p1, p3), sign * cross(p3, p0) };
+  f_.perspective = perspective;
   if (perspective)
   {
     eyeOrigin_ = { meet(p0, -p[3], p1, -p[7], p3, -p[15]), {}, {} };
@@ -149,57 +174,100 @@ void PrimaryRays::setEyeRays(const Matrix4& p)
     eyeOrigin_ = { meet(p0, -p[3], p1, -p[7], axis, 0), meet(p0, p[15], p1, 0, axis, 0),
       meet(p0, 0, p1, p[15], axis, 0) };
   }
-  originZ_ = { homogeneous(p, 2, eyeOrigin_.base), dot(p2, eyeOrigin_.dx), dot(p2, eyeOrigin_.dy) };
-  originW_ = { homogeneous(p, 3, eyeOrigin_.base), dot(p3, eyeOrigin_.dx), dot(p3, eyeOrigin_.dy) };
-  directionZ_ = { dot(p2, eyeDirection_.base), dot(p2, eyeDirection_.dx),
+  f_.originZ = { homogeneous(p, 2, eyeOrigin_.base), dot(p2, eyeOrigin_.dx),
+    dot(p2, eyeOrigin_.dy) };
+  f_.originW = { homogeneous(p, 3, eyeOrigin_.base), dot(p3, eyeOrigin_.dx),
+    dot(p3, eyeOrigin_.dy) };
+  f_.directionZ = { dot(p2, eyeDirection_.base), dot(p2, eyeDirection_.dx),
     dot(p2, eyeDirection_.dy) };
-  directionW_ = { dot(p3, eyeDirection_.base), dot(p3, eyeDirection_.dx),
+  f_.directionW = { dot(p3, eyeDirection_.base), dot(p3, eyeDirection_.dx),
     dot(p3, eyeDirection_.dy) };
 }
 
 PrimaryRay PrimaryRays::at(double windowX, double windowY) const
 {
-  const double x = clipX(windowX), y = clipY(windowY);
-  const Vec3d direction = localDirection_.at(x, y);
+  const double x = f_.clipX(windowX), y = f_.clipY(windowY);
+  const Vec3d direction = f_.localDirection.at(x, y);
   const double localLength = length(direction);
-  const double worldLength = length(worldDirection_.at(x, y));
-  const double z = originZ_.at(x, y), w = originW_.at(x, y);
-  const double dz = directionZ_.at(x, y), dw = directionW_.at(x, y);
+  const double worldPerLocal =
+    f_.worldPerLocal > 0 ? f_.worldPerLocal : length(f_.worldDirection.at(x, y)) / localLength;
+  const double z = f_.originZ.at(x, y), w = f_.originW.at(x, y);
+  const double dz = f_.directionZ.at(x, y), dw = f_.directionW.at(x, y);
   // z = -w on the near plane, z = w on the far one; both are linear along the ray.
   const double nearest = dz + dw > 0 ? -(z + w) / (dz + dw) : -Infinity;
   const double farthest = dw - dz < 0 ? -(w - z) / (dw - dz) : Infinity;
-  return { localOrigin_.at(x, y), (1 / localLength) * direction, nearest * localLength,
-    farthest * localLength, worldLength / localLength, z, w, dz / localLength, dw / localLength };
+  return { f_.localOrigin.at(x, y), (1 / localLength) * direction, nearest * localLength,
+    farthest * localLength, worldPerLocal, z, w, dz / localLength, dw / localLength };
 }
 
 Vec3d PrimaryRays::worldDirection(double x, double y) const
 {
-  return normalized(worldDirection_.at(clipX(x), clipY(y)));
+  return normalized(f_.worldDirection.at(f_.clipX(x), f_.clipY(y)));
 }
 
 Vec3d PrimaryRays::worldPoint(double x, double y, double t) const
 {
-  return worldOrigin_.at(clipX(x), clipY(y)) + t * worldDirection(x, y);
+  return worldOrigin_.at(f_.clipX(x), f_.clipY(y)) + t * worldDirection(x, y);
 }
 
-bool PrimaryRays::mayShowBox(
-  Vec3d low, Vec3d high, double x0, double y0, double x1, double y1) const
+PixelRange PrimaryRays::pixelsOfBox(Vec3d low, Vec3d high) const
 {
-  // The rectangle's pyramid is an intersection of four half-spaces of clip space, X0 w <= x <= X1 w
-  // and Y0 w <= y <= Y1 w. A box outside of one of them cannot be seen.
-  int outside[4] = {};
-  for (int corner = 0; corner < 8; ++corner)
+  double x0 = Infinity, y0 = Infinity, x1 = -Infinity, y1 = -Infinity;
+  for (const Vec3d& p : corners(low, high))
   {
-    const Vec3d p{ (corner & 1) ? high.x : low.x, (corner & 2) ? high.y : low.y,
-      (corner & 4) ? high.z : low.z };
-    const double x = homogeneous(localToClip_, 0, p);
-    const double y = homogeneous(localToClip_, 1, p);
     const double w = homogeneous(localToClip_, 3, p);
-    outside[0] += x < clipX(x0) * w;
-    outside[1] += x > clipX(x1) * w;
-    outside[2] += y < clipY(y0) * w;
-    outside[3] += y > clipY(y1) * w;
+    if (!(w > 0))
+    {
+      return { 0, 0, f_.width, f_.height }; // beside or behind the eye
+    }
+    const double x = homogeneous(localToClip_, 0, p) / w, y = homogeneous(localToClip_, 1, p) / w;
+    x0 = std::min(x0, x);
+    y0 = std::min(y0, y);
+    x1 = std::max(x1, x);
+    y1 = std::max(y1, y);
   }
-  return outside[0] < 8 && outside[1] < 8 && outside[2] < 8 && outside[3] < 8;
+  const auto toPixel = [](double clip, int size, double slack)
+  { return static_cast<int>(std::clamp(0.5 * (clip + 1) * size + slack, 0.0, double(size))); };
+  return { toPixel(x0, f_.width, -1), toPixel(y0, f_.height, -1), toPixel(x1, f_.width, 2),
+    toPixel(y1, f_.height, 2) };
+}
+
+double PrimaryRays::startOfBox(Vec3d low, Vec3d high) const
+{
+  if (f_.perspective)
+  {
+    const Vec3d eye = f_.localOrigin.base;
+    const auto beside = [](double p, double a, double b) {
+      return std::max({ a - p, p - b, 0.0 });
+    };
+    return length(Vec3d{
+      beside(eye.x, low.x, high.x), beside(eye.y, low.y, high.y), beside(eye.z, low.z, high.z) });
+  }
+  // s = (p - origin) . direction, linear in the point and in the position in the window.
+  const Vec3d direction = normalized(f_.localDirection.base);
+  double start = Infinity;
+  for (const Vec3d& p : corners(low, high))
+  {
+    start = std::min(start, dot(p - f_.localOrigin.base, direction));
+  }
+  return start - std::abs(dot(f_.localOrigin.dx, direction)) -
+    std::abs(dot(f_.localOrigin.dy, direction));
+}
+
+bool PrimaryRays::isCutByNearPlane(Vec3d low, Vec3d high) const
+{
+  for (const Vec3d& p : corners(low, high))
+  {
+    if (homogeneous(localToClip_, 2, p) < -homogeneous(localToClip_, 3, p))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+PixelRange intersect(const PixelRange& a, const PixelRange& b)
+{
+  return { std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1) };
 }
 }

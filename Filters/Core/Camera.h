@@ -46,6 +46,17 @@ struct WindowFunction
   [[nodiscard]] constexpr T at(double x, double y) const { return base + x * dx + y * dy; }
 };
 
+/// Pixels [x0, x1) x [y0, y1); empty where x0 >= x1 or y0 >= y1.
+struct PixelRange
+{
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+/// The part of both.
+[[nodiscard]] PixelRange intersect(const PixelRange& a, const PixelRange& b);
+
 /// The eye ray of one pixel, in local coordinates: origin + s direction.
 struct PrimaryRay
 {
@@ -64,6 +75,22 @@ struct PrimaryRay
   }
 };
 
+/// What rays are made of: functions of the position in the window, in [-1, 1], which give
+/// directions of one common, arbitrary scale of length.
+struct PrimaryRayFunctions
+{
+  int width = 0, height = 0;
+  bool perspective = false;
+  double worldPerLocal = 0; ///< the same for all rays where lengths scale evenly, otherwise 0
+  WindowFunction<Vec3d> localOrigin, localDirection, worldDirection;
+  // Clip coordinates z and w at the origin of a ray, and their growth along its direction.
+  WindowFunction<double> originZ, originW, directionZ, directionW;
+
+  /// Position in the window, in pixels, to [-1, 1].
+  [[nodiscard]] double clipX(double x) const { return 2 * x / width - 1; }
+  [[nodiscard]] double clipY(double y) const { return 2 * y / height - 1; }
+};
+
 /// Makes eye rays through pixel centres, in double precision from the matrices to the ray.
 ///
 /// Pixel (x, y) counts from the lower left corner. A ray is where two planes of eye space meet,
@@ -78,8 +105,9 @@ public:
   [[nodiscard]] static std::optional<PrimaryRays> make(
     const Camera& camera, const Matrix4& localToWorld);
 
-  [[nodiscard]] int width() const { return width_; }
-  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int width() const { return f_.width; }
+  [[nodiscard]] int height() const { return f_.height; }
+  [[nodiscard]] const PrimaryRayFunctions& functions() const { return f_; }
 
   /// The ray through window position (x, y); pixel i has its centre at i + 1/2.
   [[nodiscard]] PrimaryRay at(double x, double y) const;
@@ -90,9 +118,14 @@ public:
   /// Point at distance t (world units) on the same ray in world space.
   [[nodiscard]] Vec3d worldPoint(double x, double y, double t) const;
 
-  /// Can any point of the box be seen through the rectangle of the window? May err towards yes.
-  [[nodiscard]] bool mayShowBox(
-    Vec3d low, Vec3d high, double x0, double y0, double x1, double y1) const;
+  /// The part of the window through which points of the box (local) can be seen; maybe too large.
+  [[nodiscard]] PixelRange pixelsOfBox(Vec3d low, Vec3d high) const;
+
+  /// Where rays may begin without loss: no ray meets the box (local) at a smaller s.
+  [[nodiscard]] double startOfBox(Vec3d low, Vec3d high) const;
+
+  /// Does the near plane cut anything off the box (local)?
+  [[nodiscard]] bool isCutByNearPlane(Vec3d low, Vec3d high) const;
 
   [[nodiscard]] const Matrix4& localToWorld() const { return localToWorld_; }
   [[nodiscard]] const Matrix4& worldToLocal() const { return worldToLocal_; }
@@ -100,19 +133,10 @@ public:
 private:
   PrimaryRays() = default;
   void setEyeRays(const Matrix4& eyeToClip);
-
-  /// Position in the window, in pixels, to [-1, 1].
-  [[nodiscard]] double clipX(double x) const { return 2 * x / width_ - 1; }
-  [[nodiscard]] double clipY(double y) const { return 2 * y / height_ - 1; }
-
-  int width_ = 0, height_ = 0;
   Matrix4 localToWorld_{}, worldToLocal_{}, localToClip_{};
-  // Eye rays with directions of one common, arbitrary length scale.
-  WindowFunction<Vec3d> eyeOrigin_, eyeDirection_;
-  WindowFunction<Vec3d> worldOrigin_, worldDirection_;
-  WindowFunction<Vec3d> localOrigin_, localDirection_;
-  // Clip coordinates z and w at the origin of a ray, and their growth along its direction.
-  WindowFunction<double> originZ_, originW_, directionZ_, directionW_;
+  PrimaryRayFunctions f_{};
+  // In eye and world space, as f_ has them in local space.
+  WindowFunction<Vec3d> eyeOrigin_{}, eyeDirection_{}, worldOrigin_{};
 };
 }
 

@@ -19,6 +19,9 @@ namespace po
 #if RTC_VERSION_MAJOR >= 4
 using RayQueryContext = RTCRayQueryContext;
 
+/// Scenes with this flag call the filters of single queries.
+constexpr RTCSceneFlags QueryFilterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+
 inline void initRayQueryContext(RayQueryContext& context, bool /*coherent*/)
 {
   rtcInitRayQueryContext(&context);
@@ -33,21 +36,27 @@ inline void occluded1(RTCScene scene, RayQueryContext& context, RTCRay& ray)
   rtcOccluded1(scene, &ray, &arguments);
 }
 
-inline void intersect1(RTCScene scene, RayQueryContext& context, RTCRayHit& ray)
+/// Nearest hit that the filter, if there is one, does not reject.
+inline void intersect1(
+  RTCScene scene, RayQueryContext& context, RTCRayHit& ray, RTCFilterFunctionN filter = nullptr)
 {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
+  arguments.filter = filter;
+  arguments.flags = filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_NONE;
   rtcIntersect1(scene, &ray, &arguments);
 }
 
-inline void intersect16(
-  const int* valid, RTCScene scene, RayQueryContext& context, RTCRayHit16& rays)
+inline void intersect16(const int* valid, RTCScene scene, RayQueryContext& context,
+  RTCRayHit16& rays, RTCFilterFunctionN filter = nullptr)
 {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.filter = filter;
+  arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_COHERENT |
+    (filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_NONE));
   rtcIntersect16(valid, scene, &rays, &arguments);
 }
 
@@ -62,6 +71,9 @@ inline void occluded16(const int* valid, RTCScene scene, RayQueryContext& contex
 #else
 using RayQueryContext = RTCIntersectContext;
 
+/// Scenes with this flag call the filters of single queries.
+constexpr RTCSceneFlags QueryFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
 inline void initRayQueryContext(RayQueryContext& context, bool coherent)
 {
   rtcInitIntersectContext(&context);
@@ -75,14 +87,18 @@ inline void occluded1(RTCScene scene, RayQueryContext& context, RTCRay& ray)
   rtcOccluded1(scene, &context, &ray);
 }
 
-inline void intersect1(RTCScene scene, RayQueryContext& context, RTCRayHit& ray)
+/// Nearest hit that the filter, if there is one, does not reject.
+inline void intersect1(
+  RTCScene scene, RayQueryContext& context, RTCRayHit& ray, RTCFilterFunctionN filter = nullptr)
 {
+  context.filter = filter;
   rtcIntersect1(scene, &context, &ray);
 }
 
-inline void intersect16(
-  const int* valid, RTCScene scene, RayQueryContext& context, RTCRayHit16& rays)
+inline void intersect16(const int* valid, RTCScene scene, RayQueryContext& context,
+  RTCRayHit16& rays, RTCFilterFunctionN filter = nullptr)
 {
+  context.filter = filter;
   rtcIntersect16(valid, scene, &context, &rays);
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "FrameTracer.h"
 
+#include "FrontFinder.h"
+#include "PrimaryPacket.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -12,352 +15,309 @@ namespace po
 {
 namespace
 {
-constexpr int TileSize = 16;  // pixels; a tile is the unit of parallel work and of skipping
-constexpr int PacketSide = 4; // a packet is 4 x 4 rays
-constexpr int PacketSize = PacketSide * PacketSide;
-constexpr float InfinityF = std::numeric_limits<float>::infinity();
+constexpr int TileSize = 16; // pixels; a tile is the unit of parallel work and of skipping
+constexpr int PacketSide = PrimaryPacket::Side;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
-
-/// A single-precision hit this many radii from its start may be out of order with its neighbours;
-/// 2^-24 * 4096 is some 1/4000 of a radius.
-constexpr double ReliableRadii = 4096;
+constexpr float NoDepth = 2;
 
 struct Box
 {
   Vec3d low, high;
 };
 
-struct Hit
+/// Where a brick's spheres lie relative to its origin, a little enlarged so that rounding cannot
+/// cut anything off.
+Box boundsOf(const SphereScene& scene, std::size_t brick)
 {
-  double s = Infinity; ///< local length from the ray's origin
-  std::uint32_t sphere = SphereScene::None;
-  Vec3d normal;
-};
-
-/// A ray as Embree gets it: it starts near the spheres, at s = start.
-struct PreparedRay
-{
-  PrimaryRay ray;
-  double start = 0;
-  float end = -1; ///< length from the start; negative: nothing can be hit
-};
-
-/// Where the spheres lie, a little enlarged so that rounding cannot cut anything off.
-Box boundsOf(const Brick& brick)
-{
-  const double margin = 1e-5 * length(brick.high - brick.low);
+  RTCBounds b;
+  rtcGetSceneBounds(scene.handle(brick), &b);
+  const Vec3d low{ b.lower_x, b.lower_y, b.lower_z };
+  const Vec3d high{ b.upper_x, b.upper_y, b.upper_z };
+  const double margin = 1e-5 * length(high - low);
   const Vec3d grow{ margin, margin, margin };
-  return { brick.low - grow, brick.high + grow };
+  return { low - grow, high + grow };
 }
 
-/// Clips [enter, leave] to one slab.
-void clipSlab(
-  double origin, double direction, double low, double high, double& enter, double& leave)
+/// Makes room; the pixels keep what they had until they are traced.
+void prepare(TracedFrame& frame, const PrimaryRays& rays, const FrameSettings& settings)
 {
-  if (direction == 0)
-  {
-    leave = origin < low || origin > high ? -Infinity : leave;
-    return;
-  }
-  const double a = (low - origin) / direction;
-  const double b = (high - origin) / direction;
-  enter = std::max(enter, std::min(a, b));
-  leave = std::min(leave, std::max(a, b));
-}
-
-PreparedRay prepare(const PrimaryRay& ray, const Box& box)
-{
-  double enter = ray.nearest, leave = ray.farthest;
-  clipSlab(ray.origin.x, ray.direction.x, box.low.x, box.high.x, enter, leave);
-  clipSlab(ray.origin.y, ray.direction.y, box.low.y, box.high.y, enter, leave);
-  clipSlab(ray.origin.z, ray.direction.z, box.low.z, box.high.z, enter, leave);
-  PreparedRay prepared{ ray, enter, -1 };
-  if (enter <= leave)
-  {
-    // Behind the box there is nothing, so only the far plane needs care: it cuts in double.
-    prepared.end = InfinityF;
-  }
-  return prepared;
-}
-
-/// Intersects the front of one sphere in double precision; the perpendicular form keeps its digits
-/// for an origin far away. False if the ray misses, or the front lies before the near or behind the
-/// far plane.
-bool intersectExactly(const PrimaryRay& ray, const SphereSet& spheres, std::uint32_t id, Hit& hit)
-{
-  const Vec3d fromCenter = ray.origin - spheres.center(id);
-  const double toNearest = -dot(fromCenter, ray.direction);
-  const Vec3d nearest = fromCenter + toNearest * ray.direction;
-  const double radius = spheres.spheres()[id].radius;
-  const double squared = radius * radius - dot(nearest, nearest);
-  if (!(squared >= 0))
-  {
-    return false;
-  }
-  const double half = std::sqrt(squared);
-  const double s = toNearest - half;
-  if (s < ray.nearest || s > ray.farthest)
-  {
-    return false;
-  }
-  hit = { s, id, (1 / radius) * (nearest - half * ray.direction) };
-  return true;
-}
-
-/// Not a denormal number, which Embree may take for zero and hit the same sphere forever.
-float justBehind(float t)
-{
-  return std::max(std::nextafter(t, InfinityF), std::numeric_limits<float>::min());
-}
-
-/// @param home origin of the brick that the ray is traced in
-RTCRayHit makeRay(const PrimaryRay& ray, double start, float tnear, Vec3d home)
-{
-  const Vec3f origin = (ray.origin + start * ray.direction - home).as<float>();
-  RTCRayHit query;
-  query.ray.org_x = origin.x;
-  query.ray.org_y = origin.y;
-  query.ray.org_z = origin.z;
-  query.ray.tnear = tnear;
-  query.ray.dir_x = static_cast<float>(ray.direction.x);
-  query.ray.dir_y = static_cast<float>(ray.direction.y);
-  query.ray.dir_z = static_cast<float>(ray.direction.z);
-  query.ray.time = 0;
-  query.ray.tfar = InfinityF;
-  query.ray.mask = 0xFFFFFFFFu;
-  query.ray.id = 0;
-  query.ray.flags = 0;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  return query;
-}
-
-/// Makes room; the pixels keep what they had until their tile is traced.
-void resize(TracedFrame& frame, int width, int height)
-{
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  frame.width = width;
-  frame.height = height;
+  const auto pixels =
+    static_cast<std::size_t>(rays.width()) * static_cast<std::size_t>(rays.height());
+  frame.width = rays.width();
+  frame.height = rays.height();
+  frame.sampleX = settings.sampleX;
+  frame.sampleY = settings.sampleY;
   frame.t.resize(pixels);
   frame.sphere.resize(pixels);
   frame.normal.resize(pixels);
   frame.windowDepth.resize(pixels);
 }
 
-/// Pixels [x0, x1) x [y0, y1) see nothing.
-void clear(TracedFrame& frame, int x0, int y0, int x1, int y1)
+void clear(TracedFrame& frame, const PixelRange& range)
 {
-  constexpr float Nothing = 2;
-  for (int y = y0; y < y1; ++y)
+  const int count = range.x1 - range.x0;
+  for (int y = range.y0; y < range.y1; ++y)
   {
-    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * frame.width + x0;
-    std::fill_n(frame.t.begin() + first, x1 - x0, Infinity);
-    std::fill_n(frame.sphere.begin() + first, x1 - x0, SphereScene::None);
-    std::fill_n(frame.normal.begin() + first, x1 - x0, Vec3f{});
-    std::fill_n(frame.windowDepth.begin() + first, x1 - x0, Nothing);
+    const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(y) * frame.width + range.x0;
+    std::fill_n(frame.t.begin() + first, count, Infinity);
+    std::fill_n(frame.sphere.begin() + first, count, SphereScene::None);
+    std::fill_n(frame.normal.begin() + first, count, Vec3f{});
+    std::fill_n(frame.windowDepth.begin() + first, count, NoDepth);
   }
 }
 
-/// Traces what one brick holds; of several bricks the nearest hit stays.
-class Tracer
+/// Traces one brick of a scene. All its work is relative to the brick's origin, which moves the
+/// origins of rays and leaves lengths as they are. The first brick's tracer writes every pixel;
+/// those of others, which follow it in each tile, write where they find something nearer.
+class BrickTracer
 {
 public:
-  Tracer(const SphereScene& scene, std::size_t brick, const PrimaryRays& rays, TracedFrame& frame)
-    : set_(scene.set())
-    , brick_(set_.bricks()[brick])
-    , handle_(scene.handle(brick))
+  BrickTracer(const SphereScene& scene, std::size_t brick, const PrimaryRays& rays,
+    const FrameSettings& settings, TracedFrame& frame)
+    : scene_(scene)
+    , number_(brick)
+    , brick_(scene.set().bricks()[brick])
     , rays_(rays)
+    , functions_(rays.functions())
+    , settings_(settings)
     , frame_(frame)
-    , box_(boundsOf(brick_))
   {
+    functions_.localOrigin.base = functions_.localOrigin.base - brick_.origin;
+    const Box box = boundsOf(scene, brick);
+    const Vec3d low = brick_.origin + box.low, high = brick_.origin + box.high;
+    seen_ = rays.pixelsOfBox(low, high);
+    start_ = rays.startOfBox(low, high);
+    isCut_ = rays.isCutByNearPlane(low, high);
   }
 
-  [[nodiscard]] bool mayShow(int x0, int y0, int x1, int y1) const
+  [[nodiscard]] bool maySee(const PixelRange& tile) const
   {
-    return rays_.mayShowBox(box_.low, box_.high, x0, y0, x1, y1);
+    return !intersect(tile, seen_).empty();
   }
 
-  /// Pixels [x0, x1) x [y0, y1).
-  void traceTile(int x0, int y0, int x1, int y1, TraceCounters& counters) const
+  void traceTile(const PixelRange& tile, TraceCounters& counters) const
   {
-    for (int y = y0; y < y1; y += PacketSide)
+    if (!maySee(tile))
     {
-      for (int x = x0; x < x1; x += PacketSide)
+      clearFirst(tile);
+      return;
+    }
+    for (int y = tile.y0; y < tile.y1; y += PacketSide)
+    {
+      for (int x = tile.x0; x < tile.x1; x += PacketSide)
       {
-        tracePacket(x, y, counters);
+        const PixelRange packet = intersect(tile, { x, y, x + PacketSide, y + PacketSide });
+        maySee(packet) ? tracePacket(packet, counters) : clearFirst(packet);
       }
     }
+  }
+
+  /// What is behind the front that a pixel shows.
+  void traceBehind(int x, int y, const TracedFrame& inFront, TraceCounters& counters) const
+  {
+    const std::size_t pixel = pixelOf(x, y);
+    PrimaryRay ray = rayAt(x, y);
+    const double s = inFront.t[pixel] / ray.worldPerLocal;
+    const double radius = scene_.spheres()[inFront.sphere[pixel]].radius;
+    // Beyond the rounding of t, so that the same front is not met again.
+    ray.nearest = std::max(ray.nearest, s + 1e-12 * std::max(std::abs(s), radius));
+    store(pixel, ray, find(ray, std::max(start_, s), counters), counters);
   }
 
 private:
-  void tracePacket(int x0, int y0, TraceCounters& counters) const
+  void clearFirst(const PixelRange& range) const
   {
-    PreparedRay prepared[PacketSize];
-    alignas(64) int valid[PacketSize];
-    alignas(64) RTCRayHit16 query;
-    std::size_t active = 0;
-    for (int lane = 0; lane < PacketSize; ++lane)
+    if (number_ == 0)
     {
-      const int x = x0 + lane % PacketSide, y = y0 + lane / PacketSide;
-      if (x < frame_.width && y < frame_.height)
-      {
-        prepared[lane] = prepare(rays_.at(x + 0.5, y + 0.5), box_);
-      }
-      const bool traced = prepared[lane].end > 0;
-      valid[lane] = traced ? -1 : 0;
-      active += traced;
-      fill(query, lane, prepared[lane]);
-    }
-    if (active == 0)
-    {
-      return;
-    }
-    counters.rays += active;
-    RayQueryContext context;
-    initRayQueryContext(context, true);
-    intersect16(valid, handle_, context, query);
-    for (int lane = 0; lane < PacketSize; ++lane)
-    {
-      if (valid[lane] != 0 && query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID)
-      {
-        const Hit hit =
-          settle(prepared[lane], brick_.id(query.hit.primID[lane]), query.ray.tfar[lane], counters);
-        store(x0 + lane % PacketSide, y0 + lane / PacketSide, prepared[lane].ray, hit, counters);
-      }
+      clear(frame_, range);
     }
   }
 
-  void fill(RTCRayHit16& query, int lane, const PreparedRay& prepared) const
+  /// Is what the pixel has nearer than t, from a brick before this one?
+  [[nodiscard]] bool isBehind(std::size_t pixel, double t) const
   {
-    const RTCRayHit one = makeRay(prepared.ray, prepared.start, 0, brick_.origin);
-    query.ray.org_x[lane] = one.ray.org_x;
-    query.ray.org_y[lane] = one.ray.org_y;
-    query.ray.org_z[lane] = one.ray.org_z;
-    query.ray.tnear[lane] = 0;
-    query.ray.dir_x[lane] = one.ray.dir_x;
-    query.ray.dir_y[lane] = one.ray.dir_y;
-    query.ray.dir_z[lane] = one.ray.dir_z;
-    query.ray.time[lane] = 0;
-    query.ray.tfar[lane] = InfinityF;
-    query.ray.mask[lane] = 0xFFFFFFFFu;
-    query.ray.id[lane] = 0;
-    query.ray.flags[lane] = 0;
-    query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
+    return number_ != 0 && !(t < frame_.t[pixel]);
   }
 
-  /// From Embree's first candidate to the exact first hit.
-  Hit settle(const PreparedRay& prepared, unsigned id, float tfar, TraceCounters& counters) const
+  [[nodiscard]] PrimaryRay rayAt(int x, int y) const
   {
-    Hit hit = goOn(prepared.ray, prepared.start, id, tfar, counters);
-    const double radius = hit.sphere == SphereScene::None ? 0 : set_.spheres()[hit.sphere].radius;
-    const double way = hit.s - prepared.start;
-    if (hit.sphere != SphereScene::None && way > ReliableRadii * radius)
-    {
-      // Once more from close by, where floats can tell neighbours apart.
-      const double start = std::max(prepared.start, hit.s - std::max(4 * radius, 1e-5 * way));
-      const Hit closer = traceFrom(prepared.ray, start, counters);
-      return closer.s < Infinity ? closer : hit;
-    }
-    return hit;
+    PrimaryRay ray = rays_.at(x + settings_.sampleX, y + settings_.sampleY);
+    ray.origin = ray.origin - brick_.origin;
+    return ray;
   }
 
-  Hit traceFrom(const PrimaryRay& ray, double start, TraceCounters& counters) const
+  [[nodiscard]] Front find(const PrimaryRay& ray, double start, TraceCounters& counters) const
   {
-    RTCRayHit query = makeRay(ray, start, 0, brick_.origin);
-    return findNext(query, counters)
-      ? goOn(ray, start, brick_.id(query.hit.primID), query.ray.tfar, counters)
-      : Hit{};
+    return findFront(scene_, number_, settings_.hidden, ray, start, counters.rays);
   }
 
-  /// Passes candidates that are no hit in truth: fronts before the near plane, grazed spheres.
-  Hit goOn(
-    const PrimaryRay& ray, double start, unsigned id, float tfar, TraceCounters& counters) const
+  [[nodiscard]] std::size_t pixelOf(int x, int y) const
   {
-    Hit hit;
-    while (!intersectExactly(ray, set_, id, hit))
-    {
-      if (start + tfar > ray.farthest + set_.spheres()[id].radius)
-      {
-        return {};
-      }
-      RTCRayHit query = makeRay(ray, start, justBehind(tfar), brick_.origin);
-      if (!findNext(query, counters))
-      {
-        return {};
-      }
-      id = brick_.id(query.hit.primID);
-      tfar = query.ray.tfar;
-    }
-    return hit;
-  }
-
-  bool findNext(RTCRayHit& query, TraceCounters& counters) const
-  {
-    ++counters.rays;
-    RayQueryContext context;
-    initRayQueryContext(context, false);
-    intersect1(handle_, context, query);
-    return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
-  }
-
-  void store(int x, int y, const PrimaryRay& ray, const Hit& hit, TraceCounters& counters) const
-  {
-    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) +
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) +
       static_cast<std::size_t>(x);
-    const double t = hit.s * ray.worldPerLocal;
-    if (hit.sphere == SphereScene::None || !(t < frame_.t[pixel]))
+  }
+
+  void tracePacket(const PixelRange& range, TraceCounters& counters) const
+  {
+    PrimaryPacket packet;
+    alignas(64) RTCRayHit16 query;
+    makeRays(functions_, range.x0, range.y0, settings_.sampleX, settings_.sampleY, start_, isCut_,
+      packet, query);
+    alignas(64) int valid[PrimaryPacket::Size];
+    for (int lane = 0; lane < static_cast<int>(PrimaryPacket::Size); ++lane)
+    {
+      const bool inside =
+        range.x0 + lane % PacketSide < range.x1 && range.y0 + lane / PacketSide < range.y1;
+      valid[lane] = inside ? -1 : 0;
+    }
+    FrontQuery context;
+    initRayQueryContext(context.embree, true);
+    context.hidden = settings_.hidden;
+    context.brick = &brick_;
+    context.ray = nullptr;
+    intersect16(valid, scene_.handle(number_), context.embree, query,
+      settings_.hidden ? passSpheres : nullptr);
+    loadCandidates(query, packet);
+    meetFronts(functions_, range.x0, range.y0, settings_.sampleX, settings_.sampleY, packet);
+    storePacket(range, query, packet, counters);
+  }
+
+  void loadCandidates(const RTCRayHit16& query, PrimaryPacket& packet) const
+  {
+    for (std::size_t lane = 0; lane < PrimaryPacket::Size; ++lane)
+    {
+      const bool hit = query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+      const Sphere sphere = brick_.spheres[hit ? query.hit.primID[lane] : 0];
+      packet.sphere[0][lane] = sphere.x;
+      packet.sphere[1][lane] = sphere.y;
+      packet.sphere[2][lane] = sphere.z;
+      packet.sphere[3][lane] = sphere.radius;
+    }
+  }
+
+  void storePacket(const PixelRange& range, const RTCRayHit16& query, const PrimaryPacket& packet,
+    TraceCounters& counters) const
+  {
+    for (int y = range.y0; y < range.y1; ++y)
+    {
+      for (int x = range.x0; x < range.x1; ++x)
+      {
+        const auto lane = static_cast<std::size_t>((y - range.y0) * PacketSide + x - range.x0);
+        ++counters.rays;
+        storeLane(x, y, lane, query, packet, counters);
+      }
+    }
+  }
+
+  void storeLane(int x, int y, std::size_t lane, const RTCRayHit16& query,
+    const PrimaryPacket& packet, TraceCounters& counters) const
+  {
+    const std::size_t pixel = pixelOf(x, y);
+    if (query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID)
+    {
+      storeNothing(pixel);
+      return;
+    }
+    const double s = packet.s[lane];
+    const bool sure =
+      packet.isFront[lane] > 0 && !isDoubtful(s - packet.start[lane], packet.sphere[3][lane]);
+    const double worldPerLocal = functions_.worldPerLocal;
+    if (!sure || worldPerLocal == 0)
+    {
+      const PrimaryRay ray = rayAt(x, y);
+      store(pixel, ray, find(ray, packet.start[lane], counters), counters);
+      return;
+    }
+    const double t = s * worldPerLocal;
+    if (isBehind(pixel, t))
     {
       return;
     }
-    counters.hits += frame_.sphere[pixel] == SphereScene::None;
+    countHit(pixel, counters);
     frame_.t[pixel] = t;
-    frame_.sphere[pixel] = hit.sphere;
-    frame_.normal[pixel] = hit.normal.as<float>();
-    frame_.windowDepth[pixel] = static_cast<float>(std::clamp(ray.windowDepth(hit.s), 0.0, 1.0));
+    frame_.sphere[pixel] = brick_.id(query.hit.primID[lane]);
+    frame_.normal[pixel] = { packet.normalX[lane], packet.normalY[lane], packet.normalZ[lane] };
+    frame_.windowDepth[pixel] = packet.windowDepth[lane];
   }
 
-  const SphereSet& set_;
+  /// Once a pixel, whichever bricks it shows.
+  void countHit(std::size_t pixel, TraceCounters& counters) const
+  {
+    counters.hits += number_ == 0 || frame_.sphere[pixel] == SphereScene::None;
+  }
+
+  void storeNothing(std::size_t pixel) const
+  {
+    if (number_ != 0)
+    {
+      return; // others may have found something
+    }
+    frame_.t[pixel] = Infinity;
+    frame_.sphere[pixel] = SphereScene::None;
+    frame_.normal[pixel] = {};
+    frame_.windowDepth[pixel] = NoDepth;
+  }
+
+  void store(
+    std::size_t pixel, const PrimaryRay& ray, const Front& front, TraceCounters& counters) const
+  {
+    if (front.sphere == SphereScene::None)
+    {
+      storeNothing(pixel);
+      return;
+    }
+    const double t = front.s * ray.worldPerLocal;
+    if (isBehind(pixel, t))
+    {
+      return;
+    }
+    countHit(pixel, counters);
+    frame_.t[pixel] = t;
+    frame_.sphere[pixel] = front.sphere;
+    frame_.normal[pixel] = front.normal.as<float>();
+    frame_.windowDepth[pixel] = static_cast<float>(std::clamp(ray.windowDepth(front.s), 0.0, 1.0));
+  }
+
+  const SphereScene& scene_;
+  std::size_t number_;
   const Brick& brick_;
-  RTCScene handle_;
   const PrimaryRays& rays_;
+  PrimaryRayFunctions functions_; ///< relative to the brick
+  const FrameSettings& settings_;
   TracedFrame& frame_;
-  Box box_;
+  PixelRange seen_; ///< nothing is to be seen outside
+  double start_;    ///< no ray meets a sphere before
+  bool isCut_;      ///< the near plane may be behind some fronts
 };
 
-void traceTile(const std::vector<Tracer>& tracers, int tileX, int tileY, TracedFrame& frame,
-  TraceCounters& counters)
+std::vector<BrickTracer> tracersOf(const SphereScene& scene, const PrimaryRays& rays,
+  const FrameSettings& settings, TracedFrame& frame)
 {
-  const int x0 = tileX * TileSize, x1 = std::min(x0 + TileSize, frame.width);
-  const int y0 = tileY * TileSize, y1 = std::min(y0 + TileSize, frame.height);
-  clear(frame, x0, y0, x1, y1);
-  bool skipped = true;
-  for (const Tracer& tracer : tracers)
-  {
-    if (tracer.mayShow(x0, y0, x1, y1))
-    {
-      tracer.traceTile(x0, y0, x1, y1, counters);
-      skipped = false;
-    }
-  }
-  ++counters.tiles;
-  counters.tilesSkipped += skipped;
-}
-}
-
-TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, TracedFrame& frame)
-{
-  resize(frame, rays.width(), rays.height());
-  if (scene.spheres().empty())
-  {
-    clear(frame, 0, 0, frame.width, frame.height);
-    return {};
-  }
-  std::vector<Tracer> tracers;
+  std::vector<BrickTracer> tracers;
   for (std::size_t brick = 0; brick < scene.set().bricks().size(); ++brick)
   {
-    tracers.emplace_back(scene, brick, rays, frame);
+    tracers.emplace_back(scene, brick, rays, settings, frame);
   }
+  return tracers;
+}
+
+void traceTile(
+  const std::vector<BrickTracer>& tracers, const PixelRange& tile, TraceCounters& counters)
+{
+  bool seen = false;
+  for (const BrickTracer& tracer : tracers)
+  {
+    seen |= tracer.maySee(tile);
+    tracer.traceTile(tile, counters);
+  }
+  ++counters.tiles;
+  counters.tilesSkipped += !seen;
+}
+
+/// Calls f(tile, counters) for all tiles in parallel and adds up the counters.
+template <typename Function>
+TraceCounters forEachTile(const TracedFrame& frame, const Function& f)
+{
   const int columns = (frame.width + TileSize - 1) / TileSize;
   const int rows = (frame.height + TileSize - 1) / TileSize;
   tbb::enumerable_thread_specific<TraceCounters> counters;
@@ -367,7 +327,9 @@ TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, Trac
       TraceCounters& mine = counters.local();
       for (int tile = tiles.begin(); tile < tiles.end(); ++tile)
       {
-        traceTile(tracers, tile % columns, tile / columns, frame, mine);
+        const int x = tile % columns * TileSize, y = tile / columns * TileSize;
+        f(intersect({ 0, 0, frame.width, frame.height }, { x, y, x + TileSize, y + TileSize }),
+          mine);
       }
     });
   TraceCounters total;
@@ -379,5 +341,50 @@ TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays, Trac
     total.tilesSkipped += part.tilesSkipped;
   }
   return total;
+}
+}
+
+TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays,
+  const FrameSettings& settings, TracedFrame& frame)
+{
+  prepare(frame, rays, settings);
+  if (scene.spheres().empty())
+  {
+    clear(frame, { 0, 0, frame.width, frame.height });
+    return {};
+  }
+  const std::vector<BrickTracer> tracers = tracersOf(scene, rays, settings, frame);
+  return forEachTile(frame,
+    [&](const PixelRange& tile, TraceCounters& counters) { traceTile(tracers, tile, counters); });
+}
+
+TraceCounters traceBehind(const SphereScene& scene, const PrimaryRays& rays,
+  const FrameSettings& settings, const TracedFrame& inFront,
+  const std::vector<std::uint8_t>& wanted, TracedFrame& frame)
+{
+  prepare(frame, rays, settings);
+  const std::vector<BrickTracer> tracers = tracersOf(scene, rays, settings, frame);
+  return forEachTile(frame,
+    [&](const PixelRange& tile, TraceCounters& counters)
+    {
+      ++counters.tiles;
+      clear(frame, tile);
+      for (int y = tile.y0; y < tile.y1; ++y)
+      {
+        for (int x = tile.x0; x < tile.x1; ++x)
+        {
+          const std::size_t pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+            static_cast<std::size_t>(x);
+          if (wanted[pixel] != 0 && inFront.sphere[pixel] != SphereScene::None)
+          {
+            for (const BrickTracer& tracer : tracers)
+            {
+              tracer.traceBehind(x, y, inFront, counters);
+            }
+          }
+        }
+      }
+    });
 }
 }

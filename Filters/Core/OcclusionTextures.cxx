@@ -2,7 +2,6 @@
 #include "OcclusionTextures.h"
 
 #include "Gamma2.h"
-#include "TexelMap.h"
 
 namespace po
 {
@@ -30,19 +29,44 @@ OcclusionTextures::OcclusionTextures(
 
 float OcclusionTextures::at(std::size_t particle, Vec3f direction) const
 {
-  if (!rows_ || rows_[particle] < 0)
+  const auto id = static_cast<std::int64_t>(particle);
+  float value = 0;
+  lookUp(&id, &direction, 1, &value);
+  return value;
+}
+
+void OcclusionTextures::lookUp(
+  const std::int64_t* particles, const Vec3f* directions, std::size_t count, float* values) const
+{
+  TexelLookup lookup;
+  for (std::size_t i = 0; rows_ && i < BlockSize; ++i)
   {
-    return means_ ? means_[particle] : 1.0f;
+    const Vec3f direction = i < count ? directions[i] : Vec3f{ 1, 0, 0 };
+    lookup.x[i] = direction.x;
+    lookup.y[i] = direction.y;
+    lookup.z[i] = direction.z;
   }
-  const BilinearTexels texels = bilinearTexels(resolution_, fastTextureCoordinate(direction));
-  const std::size_t first =
-    static_cast<std::size_t>(rows_[particle]) * texelIndex(resolution_, resolution_, 0);
-  float sum = 0;
-  for (std::size_t k = 0; k < 4; ++k)
+  if (rows_)
   {
-    const std::size_t texel = first + texels.index[k];
-    sum += texels.weight[k] * (bytes_ ? decoded_[bytes_[texel]] : values_[texel]);
+    findTexels(resolution_, lookup);
   }
-  return sum;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto particle = static_cast<std::size_t>(particles[i]);
+    if (!rows_ || rows_[particle] < 0)
+    {
+      values[i] = means_ ? means_[particle] : 1.0f;
+      continue;
+    }
+    const std::size_t first =
+      static_cast<std::size_t>(rows_[particle]) * texelIndex(resolution_, resolution_, 0);
+    const auto row = [&](std::int32_t j)
+    {
+      const float a = texel(first, j, lookup.column0[i]), b = texel(first, j, lookup.column1[i]);
+      return a + lookup.columnWeight[i] * (b - a);
+    };
+    const float a = row(lookup.row0[i]), b = row(lookup.row1[i]);
+    values[i] = a + lookup.rowWeight[i] * (b - a);
+  }
 }
 }

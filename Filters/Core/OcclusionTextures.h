@@ -2,6 +2,8 @@
 #ifndef po_OcclusionTextures_h
 #define po_OcclusionTextures_h
 
+#include "TexelLookup.h"
+#include "TexelMap.h"
 #include "Vec3.h"
 
 #include <array>
@@ -41,7 +43,20 @@ public:
   /// decoded first, so that the interpolation is one of light, not of code values.
   [[nodiscard]] float at(std::size_t particle, Vec3f direction) const;
 
+  /// Values that lookUp() finds at once.
+  static constexpr std::size_t BlockSize = TexelLookup::Size;
+
+  /// The same for up to BlockSize particles.
+  void lookUp(
+    const std::int64_t* particles, const Vec3f* directions, std::size_t count, float* values) const;
+
 private:
+  [[nodiscard]] float texel(std::size_t first, std::int32_t row, std::int32_t column) const
+  {
+    const std::size_t i = first + texelIndex(resolution_, row, column);
+    return bytes_ ? decoded_[bytes_[i]] : values_[i];
+  }
+
   int resolution_ = 0;
   const std::uint8_t* bytes_ = nullptr;
   const float* values_ = nullptr;

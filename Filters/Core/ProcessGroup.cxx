@@ -58,7 +58,8 @@ ProcessGroup::Words ProcessGroup::gatherWords(int destination, const Words& own)
   {
     if (destination < 0 || destination == rank())
     {
-      all.resize(std::accumulate(lengths.begin(), lengths.end(), std::size_t(0)));
+      all.resize(
+        static_cast<std::size_t>(std::accumulate(lengths.begin(), lengths.end(), std::int64_t(0))));
     }
   }
   catch (const std::bad_alloc&)

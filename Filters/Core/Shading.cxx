@@ -2,38 +2,18 @@
 #include "Shading.h"
 
 #include "Constants.h"
+#include "ForEachHit.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace po
 {
 namespace
 {
-/// Calls f(x, y, pixel) for all pixels that show a sphere, rows in parallel.
-template <typename Function>
-void forEachHit(const TracedFrame& frame, const Function& f)
-{
-  tbb::parallel_for(tbb::blocked_range<int>(0, frame.height),
-    [&](const tbb::blocked_range<int>& rows)
-    {
-      for (int y = rows.begin(); y < rows.end(); ++y)
-      {
-        std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width);
-        for (int x = 0; x < frame.width; ++x, ++pixel)
-        {
-          if (frame.sphere[pixel] != SphereScene::None)
-          {
-            f(x, y, pixel);
-          }
-        }
-      }
-    });
-}
-
 /// Component by component.
 Vec3f modulate(Vec3f a, Vec3f b)
 {
@@ -61,36 +41,73 @@ Vec3f particleColor(const Material& material, std::int64_t particle, Vec3f other
   return (1.0f / 255) * Vec3f{ float(rgba[0]), float(rgba[1]), float(rgba[2]) };
 }
 
-/// Colours pixels one by one. What few scenes need, such as the direction of view (for highlights)
-/// or the place of the hit (for lights that have a place), is computed only for those.
+/// A light as pixels see it, where it is the same for all of them.
+struct PreparedLight
+{
+  const Light* light;
+  const std::uint8_t* mask; ///< or null: it reaches all pixels
+  Vec3f toLight;            ///< of a light without a place
+  Vec3f toLightLocal;       ///< its product with a local normal is that in world space
+};
+
+/// Colours pixels. What few scenes need, such as the direction of view (for highlights) or the
+/// place of the hit (for lights that have a place), is computed only for those.
 class PixelShader
 {
 public:
   explicit PixelShader(const ShadingInput& input)
     : in_(input)
     , needsView_(input.material.specular > 0)
+    , isEven_(input.rays.functions().worldPerLocal > 0)
   {
-    for (std::size_t i = 0; i < input.lights.size(); ++i)
-    {
-      const bool masked = i < input.shadows.lit.size() && !input.shadows.lit[i].empty();
-      masks_.push_back(masked ? input.shadows.lit[i].data() : nullptr);
-      needsPoint_ = needsPoint_ || input.lights[i].positional;
-    }
     const double scale = 1 / largestEntry();
     for (std::size_t i = 0; i < toLocal_.size(); ++i)
     {
       toLocal_[i] = static_cast<float>(scale * input.rays.worldToLocal()[4 * (i / 3) + i % 3]);
     }
+    for (std::size_t i = 0; i < input.lights.size(); ++i)
+    {
+      prepare(i);
+      needsPoint_ = needsPoint_ || input.lights[i].positional;
+    }
+    isSimple_ = isEven_ && !needsView_ && !needsPoint_;
   }
 
-  [[nodiscard]] Vec3f shade(int x, int y, std::size_t pixel) const
+  [[nodiscard]] std::uint8_t alpha(std::size_t pixel) const
   {
     const Material& m = in_.material;
-    const std::int64_t particle = in_.particles[in_.frame.sphere[pixel]];
+    if (!m.translucent)
+    {
+      return 255;
+    }
+    return m.particleColors ? m.particleColors[4 * in_.particles[in_.frame.sphere[pixel]] + 3]
+                            : toByte(static_cast<float>(m.opacity));
+  }
+
+  /// Occlusion of up to OcclusionTextures::BlockSize pixels, or 1 where it is not used.
+  void lookUp(const std::size_t* pixels, std::size_t count, float* occlusion) const
+  {
+    if (in_.material.mode == ShadingMode::DirectLight || in_.textures.empty())
+    {
+      std::fill_n(occlusion, count, 1.0f);
+      return;
+    }
+    std::array<std::int64_t, OcclusionTextures::BlockSize> particles;
+    std::array<Vec3f, OcclusionTextures::BlockSize> normals;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      particles[i] = in_.particles[in_.frame.sphere[pixels[i]]];
+      normals[i] = in_.frame.normal[pixels[i]];
+    }
+    in_.textures.lookUp(particles.data(), normals.data(), count, occlusion);
+  }
+
+  [[nodiscard]] Vec3f shade(int x, int y, std::size_t pixel, float occlusion) const
+  {
+    const Material& m = in_.material;
+    const std::int64_t particle =
+      m.particleColors ? in_.particles[in_.frame.sphere[pixel]] : std::int64_t(0);
     const Vec3f diffuseColor = particleColor(m, particle, m.diffuseColor);
-    const float occlusion = m.mode == ShadingMode::DirectLight
-      ? 1.0f
-      : in_.textures.at(static_cast<std::size_t>(particle), in_.frame.normal[pixel]);
     if (m.mode == ShadingMode::AmbientOcclusion)
     {
       return occlusion * diffuseColor;
@@ -102,12 +119,25 @@ public:
     {
       return ambient + diffuse * diffuseColor;
     }
-    const DirectLight light = gather(x, y, pixel);
+    const DirectLight light = isSimple_ ? gatherSimple(pixel) : gather(x, y, pixel);
     return ambient + diffuse * modulate(light.diffuse, diffuseColor) +
       static_cast<float>(m.specular) * modulate(light.specular, m.specularColor);
   }
 
 private:
+  void prepare(std::size_t i)
+  {
+    const bool masked = i < in_.shadows.lit.size() && !in_.shadows.lit[i].empty();
+    const Vec3f toLight = (-in_.lights[i].direction).as<float>();
+    const auto& m = toLocal_;
+    // The transpose of what normals are multiplied by; its rows have one length where lengths scale
+    // evenly, and only there this is used.
+    const Vec3f local{ dot(Vec3f{ m[0], m[1], m[2] }, toLight),
+      dot(Vec3f{ m[3], m[4], m[5] }, toLight), dot(Vec3f{ m[6], m[7], m[8] }, toLight) };
+    lights_.push_back({ &in_.lights[i], masked ? in_.shadows.lit[i].data() : nullptr, toLight,
+      (1 / length(Vec3f{ m[0], m[1], m[2] })) * local });
+  }
+
   /// Normals follow the transpose of worldToLocal; a common factor does not matter to them, and
   /// keeps any scale of the data within the range of a float.
   [[nodiscard]] double largestEntry() const
@@ -130,20 +160,40 @@ private:
       n.x * m[1] + n.y * m[4] + n.z * m[7], n.x * m[2] + n.y * m[5] + n.z * m[8] });
   }
 
+  /// Lights without a place, no highlights, lengths that scale evenly: the local normal will do.
+  [[nodiscard]] DirectLight gatherSimple(std::size_t pixel) const
+  {
+    const Vec3f normal = in_.frame.normal[pixel];
+    DirectLight sum;
+    for (const PreparedLight& prepared : lights_)
+    {
+      const float facing = dot(normal, prepared.toLightLocal);
+      if (facing > 0 && !(prepared.mask && prepared.mask[pixel] == 0))
+      {
+        sum.diffuse = sum.diffuse + facing * prepared.light->color;
+      }
+    }
+    return sum;
+  }
+
   [[nodiscard]] DirectLight gather(int x, int y, std::size_t pixel) const
   {
     const Vec3f normal = normalInWorld(in_.frame.normal[pixel]);
-    const Vec3d point =
-      needsPoint_ ? in_.rays.worldPoint(x + 0.5, y + 0.5, in_.frame.t[pixel]) : Vec3d{};
-    const Vec3f view = needsView_ ? in_.rays.worldDirection(x + 0.5, y + 0.5).as<float>() : Vec3f{};
+    const TracedFrame& frame = in_.frame;
+    const Vec3d point = needsPoint_
+      ? in_.rays.worldPoint(x + frame.sampleX, y + frame.sampleY, in_.frame.t[pixel])
+      : Vec3d{};
+    const Vec3f view = needsView_
+      ? in_.rays.worldDirection(x + frame.sampleX, y + frame.sampleY).as<float>()
+      : Vec3f{};
     DirectLight sum;
-    for (std::size_t i = 0; i < in_.lights.size(); ++i)
+    for (const PreparedLight& prepared : lights_)
     {
-      if (masks_[i] && masks_[i][pixel] == 0)
+      if (prepared.mask && prepared.mask[pixel] == 0)
       {
         continue;
       }
-      const Light& light = in_.lights[i];
+      const Light& light = *prepared.light;
       const IncidentLight incident = illuminate(light, point);
       const Vec3f toLight = incident.direction.as<float>();
       const float facing = dot(normal, toLight);
@@ -172,32 +222,41 @@ private:
   }
 
   const ShadingInput& in_;
-  std::vector<const std::uint8_t*> masks_; ///< of each light, or null: it reaches all pixels
-  std::array<float, 9> toLocal_{};         ///< linear part of worldToLocal, by rows, scaled
+  std::vector<PreparedLight> lights_;
+  std::array<float, 9> toLocal_{}; ///< linear part of worldToLocal, by rows, scaled
   bool needsPoint_ = false;
   bool needsView_;
+  bool isEven_;
+  bool isSimple_ = false; ///< see gatherSimple
 };
-
-/// Does the light reach the hit? One ray at most; counts what was done.
-bool isLit(const SphereScene& scene, const PrimaryRays& rays, const TracedFrame& frame,
-  const Light& light, int x, int y, std::size_t pixel, bool& traced)
-{
-  const IncidentLight incident =
-    illuminate(light, rays.worldPoint(x + 0.5, y + 0.5, frame.t[pixel]));
-  const Vec3d normal = frame.normal[pixel].as<double>();
-  const Vec3d toLight = transformVector(rays.worldToLocal(), incident.direction);
-  // A surface that faces away is dark by itself. The sign is the same in local and world space.
-  traced = incident.strength > 0 && dot(normal, toLight) > 0;
-  if (!traced)
-  {
-    return false;
-  }
-  const Sphere sphere = scene.set().inBrick(frame.sphere[pixel]);
-  const Vec3d origin = sphere.center().as<double>() + static_cast<double>(sphere.radius) * normal;
-  const double localPerWorld = length(toLight);
-  return !scene.occluded(origin.as<float>(), ((1 / localPerWorld) * toLight).as<float>(),
-    static_cast<float>(incident.distance * localPerWorld), frame.sphere[pixel]);
 }
+
+bool Light::operator==(const Light& o) const
+{
+  const auto all = [](const Light& l)
+  {
+    return std::tuple(l.positional, l.position.x, l.position.y, l.position.z, l.direction.x,
+      l.direction.y, l.direction.z, l.color.x, l.color.y, l.color.z, l.coneAngle, l.exponent,
+      l.attenuation, l.headlight);
+  };
+  return all(*this) == all(o);
+}
+
+bool Material::operator==(const Material& o) const
+{
+  const auto all = [](const Material& m)
+  {
+    const auto color = [](Vec3f c) { return std::tuple(c.x, c.y, c.z); };
+    return std::tuple(m.mode, m.occlusionOnDiffuse, m.lighting, m.ambient, m.diffuse, m.specular,
+      m.specularPower, color(m.ambientColor), color(m.diffuseColor), color(m.specularColor),
+      m.translucent, m.opacity, m.particleColors, m.colorsVersion);
+  };
+  return all(*this) == all(o);
+}
+
+bool Material::usesLights() const
+{
+  return mode != ShadingMode::AmbientOcclusion && lighting && (diffuse > 0 || specular > 0);
 }
 
 IncidentLight illuminate(const Light& light, Vec3d point)
@@ -221,47 +280,47 @@ IncidentLight illuminate(const Light& light, Vec3d point)
   return { direction, distance, strength };
 }
 
-ShadowCounters traceShadows(const SphereScene& scene, const PrimaryRays& rays,
-  const TracedFrame& frame, const Light& light, std::vector<std::uint8_t>& lit)
-{
-  constexpr std::uint8_t Skipped = 2;
-  lit.assign(frame.pixels(), 0);
-  forEachHit(frame,
-    [&](int x, int y, std::size_t pixel)
-    {
-      bool traced = false;
-      const bool reached = isLit(scene, rays, frame, light, x, y, pixel, traced);
-      lit[pixel] = traced ? reached : Skipped;
-    });
-  ShadowCounters counters;
-  for (std::size_t pixel = 0; pixel < lit.size(); ++pixel)
-  {
-    const bool hit = frame.sphere[pixel] != SphereScene::None;
-    const bool skipped = lit[pixel] == Skipped;
-    counters.rays += hit && !skipped;
-    counters.skipped += skipped;
-    lit[pixel] = skipped ? 0 : lit[pixel];
-  }
-  return counters;
-}
-
 void shadeFrame(const ShadingInput& in, std::vector<std::uint8_t>& rgba)
 {
   rgba.resize(4 * in.frame.pixels());
   const PixelShader shader(in);
+  constexpr std::size_t Block = OcclusionTextures::BlockSize;
   const auto shadeRow = [&](int y)
   {
-    std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(in.frame.width);
-    for (int x = 0; x < in.frame.width; ++x, ++pixel)
+    const auto width = static_cast<std::size_t>(in.frame.width);
+    const std::size_t first = static_cast<std::size_t>(y) * width;
+    std::array<std::size_t, Block> pixels;
+    std::array<float, Block> occlusion;
+    std::size_t count = 0;
+    const auto flush = [&]
     {
-      const bool hit = in.frame.sphere[pixel] != SphereScene::None;
-      const Vec3f color = hit ? shader.shade(x, y, pixel) : Vec3f{};
-      std::uint8_t* bytes = rgba.data() + 4 * pixel;
-      bytes[0] = toByte(color.x);
-      bytes[1] = toByte(color.y);
-      bytes[2] = toByte(color.z);
-      bytes[3] = hit ? 255 : 0;
+      shader.lookUp(pixels.data(), count, occlusion.data());
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const Vec3f color =
+          shader.shade(static_cast<int>(pixels[i] - first), y, pixels[i], occlusion[i]);
+        std::uint8_t* bytes = rgba.data() + 4 * pixels[i];
+        bytes[0] = toByte(color.x);
+        bytes[1] = toByte(color.y);
+        bytes[2] = toByte(color.z);
+        bytes[3] = shader.alpha(pixels[i]);
+      }
+      count = 0;
+    };
+    for (std::size_t pixel = first; pixel < first + width; ++pixel)
+    {
+      if (in.frame.sphere[pixel] == SphereScene::None)
+      {
+        std::fill_n(rgba.data() + 4 * pixel, 4, std::uint8_t(0));
+        continue;
+      }
+      pixels[count++] = pixel;
+      if (count == Block)
+      {
+        flush();
+      }
     }
+    flush();
   };
   tbb::parallel_for(0, in.frame.height, shadeRow);
 }

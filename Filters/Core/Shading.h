@@ -25,6 +25,8 @@ struct Light
   /// Highlights by cos^n of the angle to the axis of view instead of to the mirrored ray: how VTK
   /// draws a lone headlight.
   bool headlight = false;
+
+  [[nodiscard]] bool operator==(const Light& other) const;
 };
 
 /// The light that reaches a point.
@@ -50,9 +52,11 @@ struct ShadowCounters
 };
 
 /// Traces one occlusion ray for each pixel that the light may reach. Occluders are all spheres of
-/// the scene, seen or not.
-ShadowCounters traceShadows(const SphereScene& scene, const PrimaryRays& rays,
-  const TracedFrame& frame, const Light& light, std::vector<std::uint8_t>& lit);
+/// the scene, seen or not, but the hidden ones.
+/// @param hidden see FrameSettings
+ShadowCounters traceShadows(const SphereScene& scene, const std::uint8_t* hidden,
+  const PrimaryRays& rays, const TracedFrame& frame, const Light& light,
+  std::vector<std::uint8_t>& lit);
 
 enum class ShadingMode
 {
@@ -69,8 +73,16 @@ struct Material
   bool lighting = true;           ///< off: ambient + diffuse colour as they are
   double ambient = 0, diffuse = 1, specular = 0, specularPower = 1;
   Vec3f ambientColor{ 1, 1, 1 }, diffuseColor{ 1, 1, 1 }, specularColor{ 1, 1, 1 };
-  /// RGBA of each particle in place of the ambient and diffuse colours, or null. Alpha is not used.
+  bool translucent = false; ///< off: opacities do not count
+  double opacity = 1;       ///< 0 to 1; not used with colours of particles, which bring their own
+  /// RGBA of each particle in place of the ambient and diffuse colours, or null.
   const std::uint8_t* particleColors = nullptr;
+  std::uint64_t colorsVersion = 0; ///< another number for other contents of particleColors
+
+  [[nodiscard]] bool operator==(const Material& other) const;
+
+  /// Do lights take part?
+  [[nodiscard]] bool usesLights() const;
 };
 
 /// Everything that colours a traced frame.
@@ -85,7 +97,8 @@ struct ShadingInput
   Material material;
 };
 
-/// RGBA bytes of each pixel (alpha 255 on spheres, all 0 on background), computed in parallel.
+/// RGBA bytes of each pixel, computed in parallel: alpha is opacity, colour is not multiplied by
+/// it. The background is all 0.
 void shadeFrame(const ShadingInput& input, std::vector<std::uint8_t>& rgba);
 
 /// Occlusion value of each pixel, 0 on background.

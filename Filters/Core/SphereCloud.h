@@ -48,6 +48,12 @@ struct SphereCloud
   std::vector<std::uint8_t> ghosts;
   RejectedParticles rejected;
 
+  /// Local, in full.
+  [[nodiscard]] Vec3d center(std::size_t i) const
+  {
+    return centers.empty() ? spheres[i].center().as<double>() : centers[i];
+  }
+
   /// Is a point of these local coordinates near enough for ray tracing in floats?
   [[nodiscard]] static bool inRange(Vec3d local);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereRenderer.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -42,6 +43,27 @@ bool sameReach(const Light& a, const Light& b)
     (a.positional ? sameCone && a.position == b.position : a.direction == b.direction);
 }
 
+bool sameStyle(const Style& a, const Style& b)
+{
+  return a.material == b.material && a.texturesVersion == b.texturesVersion &&
+    a.lights == b.lights && a.shadows == b.shadows && a.maximumLayers == b.maximumLayers;
+}
+
+/// Multiplies the light of each pixel by what the layer lets through, and tells which pixels still
+/// get a visible share from behind.
+std::vector<std::uint8_t> pixelsToLookBehind(const FrameLayer& layer, std::vector<float>& light)
+{
+  constexpr float Visible = 0.5f / 255;
+  std::vector<std::uint8_t> wanted(light.size());
+  for (std::size_t pixel = 0; pixel < light.size(); ++pixel)
+  {
+    light[pixel] *= 1 - float(layer.rgba[4 * pixel + 3]) / 255;
+    const bool hit = layer.frame.sphere[pixel] != SphereScene::None;
+    wanted[pixel] = hit && light[pixel] >= Visible ? 1 : 0;
+  }
+  return wanted;
+}
+
 Matrix4 localToModel(const SphereCloud& cloud)
 {
   const double s = cloud.scale;
@@ -53,9 +75,31 @@ Matrix4 localToModel(const SphereCloud& cloud)
 void SphereRenderer::setCloud(SphereCloud cloud)
 {
   cloud_ = std::move(cloud);
+  hidden_.clear();
   scene_.reset();
+  forgetFrame();
+}
+
+void SphereRenderer::setHidden(std::vector<std::uint8_t> hidden)
+{
+  if (hidden != hidden_)
+  {
+    hidden_ = std::move(hidden);
+    forgetFrame();
+  }
+}
+
+void SphereRenderer::forgetFrame()
+{
   frameIsCurrent_ = false;
   isShaded_ = false;
+  first_.shadowLights.clear();
+  behind_.clear();
+}
+
+FrameSettings SphereRenderer::settings(SamplePlace place) const
+{
+  return { place.x, place.y, hidden_.empty() ? nullptr : hidden_.data() };
 }
 
 void SphereRenderer::buildScene()
@@ -64,15 +108,18 @@ void SphereRenderer::buildScene()
   scene_ = scenes_->get(cloud_.spheres, cloud_.centers);
 }
 
+bool SphereRenderer::isCurrent(const Camera& camera, const Matrix4& modelToWorld) const
+{
+  return frameIsCurrent_ && sameView(camera, camera_) && modelToWorld == modelToWorld_;
+}
+
 bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)
 {
-  if (frameIsCurrent_ && sameView(camera, camera_) && modelToWorld == modelToWorld_)
+  if (isCurrent(camera, modelToWorld))
   {
     return true;
   }
-  frameIsCurrent_ = false;
-  isShaded_ = false;
-  shadowLights_.clear();
+  forgetFrame();
   rays_ = PrimaryRays::make(camera, multiply(modelToWorld, localToModel(cloud_)));
   if (!rays_)
   {
@@ -84,7 +131,7 @@ bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)
   }
   {
     const Stopwatch watch(statistics_.traceSeconds);
-    statistics_.trace = traceFrame(*scene_, *rays_, frame_);
+    statistics_.trace = traceFrame(*scene_, *rays_, settings(), first_.frame);
   }
   ++statistics_.framesTraced;
   camera_ = camera;
@@ -93,10 +140,11 @@ bool SphereRenderer::trace(const Camera& camera, const Matrix4& modelToWorld)
   return true;
 }
 
-void SphereRenderer::castShadows(const std::vector<Light>& lights)
+void SphereRenderer::castShadows(FrameLayer& layer)
 {
+  const std::vector<Light>& lights = style_.lights;
   const auto isKept = [&](std::size_t i)
-  { return i < shadowLights_.size() && sameReach(lights[i], shadowLights_[i]); };
+  { return i < layer.shadowLights.size() && sameReach(lights[i], layer.shadowLights[i]); };
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < lights.size(); ++i)
   {
@@ -105,8 +153,8 @@ void SphereRenderer::castShadows(const std::vector<Light>& lights)
       moved.push_back(i);
     }
   }
-  shadows_.lit.resize(lights.size());
-  shadowLights_ = lights;
+  layer.shadows.lit.resize(lights.size());
+  layer.shadowLights = lights;
   if (moved.empty())
   {
     return; // the statistics stay those of the last time
@@ -115,30 +163,122 @@ void SphereRenderer::castShadows(const std::vector<Light>& lights)
   statistics_.shadows = {};
   for (const std::size_t i : moved)
   {
-    const ShadowCounters counters =
-      traceShadows(*scene_, *rays_, frame_, lights[i], shadows_.lit[i]);
+    const ShadowCounters counters = traceShadows(
+      *scene_, settings().hidden, *rays_, layer.frame, lights[i], layer.shadows.lit[i]);
     statistics_.shadows.rays += counters.rays;
     statistics_.shadows.skipped += counters.skipped;
     ++statistics_.shadowsTraced;
   }
 }
 
-void SphereRenderer::shade(const Material& material, const OcclusionTextures& textures,
-  const std::vector<Light>& lights, bool shadows)
+void SphereRenderer::shadeLayer(FrameLayer& layer)
 {
-  const bool direct = material.mode != ShadingMode::AmbientOcclusion && material.lighting &&
-    (material.diffuse > 0 || material.specular > 0);
-  if (shadows && direct)
+  if (style_.shadows && style_.material.usesLights())
   {
-    castShadows(lights);
+    castShadows(layer);
   }
   else
   {
-    shadowLights_.clear();
-    shadows_.lit.clear();
+    layer.shadowLights.clear();
+    layer.shadows.lit.clear();
   }
+  shadeFrame({ *rays_, layer.frame, cloud_.sourceIds, style_.textures, style_.lights, layer.shadows,
+               style_.material },
+    layer.rgba);
+}
+
+void SphereRenderer::shade(const Style& style)
+{
+  if (isShaded_ && sameStyle(style, style_))
+  {
+    return;
+  }
+  style_ = style;
   const Stopwatch watch(statistics_.shadeSeconds);
-  shadeFrame({ *rays_, frame_, cloud_.sourceIds, textures, lights, shadows_, material }, rgba_);
+  shadeLayer(first_);
+  shadeBehind();
+  ++statistics_.framesShaded;
+  average_.clear();
+  rimDepth_.clear();
+  samples_ = 1;
   isShaded_ = true;
+}
+
+void SphereRenderer::shadeBehind()
+{
+  if (!style_.material.translucent)
+  {
+    behind_.clear();
+    return;
+  }
+  std::vector<float> light(first_.frame.pixels(), 1); // that all layers so far let through
+  for (std::size_t number = 0; static_cast<int>(number) + 1 < style_.maximumLayers; ++number)
+  {
+    const FrameLayer& inFront = number == 0 ? first_ : behind_[number - 1];
+    if (!traceLayer(inFront, number, pixelsToLookBehind(inFront, light)))
+    {
+      behind_.resize(number);
+      return;
+    }
+    shadeLayer(behind_[number]);
+  }
+}
+
+bool SphereRenderer::traceLayer(
+  const FrameLayer& inFront, std::size_t number, std::vector<std::uint8_t> wanted)
+{
+  if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end())
+  {
+    return false;
+  }
+  if (number < behind_.size() && behind_[number].wanted == wanted)
+  {
+    return true;
+  }
+  behind_.resize(number);
+  FrameLayer layer;
+  layer.wanted = std::move(wanted);
+  const TraceCounters counters =
+    traceBehind(*scene_, *rays_, settings(), inFront.frame, layer.wanted, layer.frame);
+  ++statistics_.layersTraced;
+  if (counters.hits > 0)
+  {
+    behind_.push_back(std::move(layer));
+  }
+  return counters.hits > 0;
+}
+
+void SphereRenderer::refine(int samples)
+{
+  if (style_.material.translucent || samples_ >= samples)
+  {
+    return;
+  }
+  if (samples_ == 1)
+  {
+    average_.add(first_.rgba);
+    rimDepth_.assign(first_.frame.pixels(), 2);
+  }
+  for (; samples_ < samples; ++samples_)
+  {
+    (void)traceFrame(*scene_, *rays_, settings(samplePlace(samples_)), sample_.frame);
+    sample_.shadowLights.clear();
+    shadeLayer(sample_);
+    average_.add(sample_.rgba);
+    addRims(sample_.frame);
+    ++statistics_.samplesTraced;
+  }
+  average_.write(first_.rgba);
+}
+
+void SphereRenderer::addRims(const TracedFrame& sample)
+{
+  for (std::size_t pixel = 0; pixel < rimDepth_.size(); ++pixel)
+  {
+    if (first_.frame.sphere[pixel] == SphereScene::None)
+    {
+      rimDepth_[pixel] = std::min(rimDepth_[pixel], sample.windowDepth[pixel]);
+    }
+  }
 }
 }

@@ -2,6 +2,7 @@
 #ifndef po_SphereRenderer_h
 #define po_SphereRenderer_h
 
+#include "SampleAverage.h"
 #include "SceneCache.h"
 #include "Shading.h"
 #include "SphereCloud.h"
@@ -21,13 +22,38 @@ struct RenderStatistics
   TraceCounters trace;    ///< of the last traced frame
   ShadowCounters shadows; ///< the last time shadows were traced, over the lights that had moved
   std::size_t framesTraced = 0;
+  std::size_t layersTraced = 0;  ///< behind frames
+  std::size_t samplesTraced = 0; ///< frames for smooth edges
+  std::size_t framesShaded = 0;
   std::size_t shadowsTraced = 0; ///< masks of single lights
   double buildSeconds = 0, traceSeconds = 0, shadowSeconds = 0, shadeSeconds = 0;
 };
 
+/// How a traced frame is to look. It refers to arrays of the caller.
+struct Style
+{
+  Material material;
+  OcclusionTextures textures;
+  std::uint64_t texturesVersion = 0; ///< another number for other textures
+  std::vector<Light> lights;
+  bool shadows = false;
+  int maximumLayers = 16; ///< of translucent spheres, one behind the other
+};
+
+/// One surface a pixel: what is seen, and its colours.
+struct FrameLayer
+{
+  TracedFrame frame;
+  std::vector<Light> shadowLights; ///< of the masks
+  ShadowMasks shadows;
+  std::vector<std::uint8_t> rgba;   ///< see shadeFrame(); zeros where nothing is wanted
+  std::vector<std::uint8_t> wanted; ///< of each pixel; empty: all (the first layer)
+};
+
 /// Spheres from cloud to pixels; each step is repeated only when what it depends on has changed.
 ///
-/// Steps: scene (spheres), frame (view, size, placement), shadows (a light's geometry), colours.
+/// Steps: scene (spheres), frame (view, size, placement, hidden spheres), shadows (a light's
+/// geometry), colours, layers behind translucent spheres, samples for smooth edges.
 class SphereRenderer
 {
 public:
@@ -37,10 +63,16 @@ public:
   {
   }
 
-  /// New spheres; the scene is built when the first frame asks for it.
+  /// New spheres, none hidden; the scene is built when the first frame asks for it.
   void setCloud(SphereCloud cloud);
 
   [[nodiscard]] const SphereCloud& cloud() const { return cloud_; }
+
+  /// Of each sphere 1 if rays pass it, see hideSpheres(); empty: all are seen. The scene is kept.
+  void setHidden(std::vector<std::uint8_t> hidden);
+
+  /// Is the frame at hand of this view, so that trace() would have nothing to do?
+  [[nodiscard]] bool isCurrent(const Camera& camera, const Matrix4& modelToWorld) const;
 
   /// Traces the view unless the last frame was of the same view and spheres. False if nothing can
   /// be drawn: the window is empty or a matrix singular.
@@ -48,17 +80,32 @@ public:
   /// Throws std::runtime_error or std::bad_alloc when the scene cannot be built.
   bool trace(const Camera& camera, const Matrix4& modelToWorld);
 
-  /// Colours the traced frame. With `castShadows` masks of lights that stay are kept.
-  void shade(const Material& material, const OcclusionTextures& textures,
-    const std::vector<Light>& lights, bool castShadows);
+  /// Colours the traced frame, and what is seen behind translucent spheres, unless the last time
+  /// was in the same style. Masks of lights that stay are kept.
+  void shade(const Style& style);
+
+  /// Adds rays through other places of the pixels until each pixel has had `samples` of them, and
+  /// averages. Only after shade(), and not for translucent spheres. Depth, normals and ids stay
+  /// those of the pixels' centres.
+  void refine(int samples);
+
+  /// Rays a pixel in the averaged colours.
+  [[nodiscard]] int samples() const { return samples_; }
 
   /// Do the results below belong together? Not before the first shade, nor after new spheres or a
   /// new view until they are shaded.
   [[nodiscard]] bool isShaded() const { return isShaded_; }
 
   // Results of the last trace and shade, row by row from the lower left corner.
-  [[nodiscard]] const TracedFrame& frame() const { return frame_; }
-  [[nodiscard]] const std::vector<std::uint8_t>& rgba() const { return rgba_; }
+  [[nodiscard]] const TracedFrame& frame() const { return first_.frame; }
+  [[nodiscard]] const std::vector<std::uint8_t>& rgba() const { return first_.rgba; }
+
+  /// Window depth of pixels that show spheres in averaged colours, though not at their centre; 2 on
+  /// all others. Empty if there are none.
+  [[nodiscard]] const std::vector<float>& rimDepth() const { return rimDepth_; }
+
+  /// What is behind the first layer, front to back; empty unless translucent.
+  [[nodiscard]] const std::vector<FrameLayer>& layersBehind() const { return behind_; }
 
   /// Only after a trace that succeeded.
   [[nodiscard]] const PrimaryRays& rays() const { return *rays_; }
@@ -67,20 +114,30 @@ public:
 
 private:
   void buildScene();
-  void castShadows(const std::vector<Light>& lights);
+  void forgetFrame();
+  void castShadows(FrameLayer& layer);
+  void shadeLayer(FrameLayer& layer);
+  void shadeBehind();
+  bool traceLayer(const FrameLayer& inFront, std::size_t number, std::vector<std::uint8_t> wanted);
+  void addRims(const TracedFrame& sample);
+  [[nodiscard]] FrameSettings settings(SamplePlace place = {}) const;
 
   std::shared_ptr<SceneCache> scenes_;
   SphereCloud cloud_;
+  std::vector<std::uint8_t> hidden_;
   std::shared_ptr<const SphereScene> scene_;
   std::optional<PrimaryRays> rays_;
   Camera camera_{};
   Matrix4 modelToWorld_{};
   bool frameIsCurrent_ = false;
   bool isShaded_ = false;
-  TracedFrame frame_;
-  std::vector<Light> shadowLights_; ///< of the masks
-  ShadowMasks shadows_;
-  std::vector<std::uint8_t> rgba_;
+  Style style_;
+  FrameLayer first_;
+  std::vector<FrameLayer> behind_;
+  FrameLayer sample_; ///< the last one for smooth edges
+  SampleAverage average_;
+  std::vector<float> rimDepth_;
+  int samples_ = 0;
   RenderStatistics statistics_;
 };
 }

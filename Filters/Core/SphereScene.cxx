@@ -18,12 +18,13 @@ struct OcclusionContext
 {
   RayQueryContext embree; // first, so that the filter can cast back
   unsigned own;
+  const std::uint8_t* hidden; // of each sphere, or null
 };
 
 /// So many rays are faster one by one than as a packet (measured).
 constexpr unsigned FewRays = 3;
 
-/// Rejects the ray's own sphere and every sphere whose centre does not lie ahead.
+/// Rejects the ray's own sphere, hidden ones, and every sphere whose centre does not lie ahead.
 void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
 {
   const auto* brick = static_cast<const Brick*>(arguments->geometryUserPtr);
@@ -42,7 +43,9 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
       RTCRayN_dir_y(arguments->ray, arguments->N, i),
       RTCRayN_dir_z(arguments->ray, arguments->N, i) };
     const bool ahead = dot(brick->spheres[place].center() - origin, direction) > 0;
-    if (brick->id(place) == context->own || !ahead)
+    const unsigned id = brick->id(place);
+    const bool hidden = context->hidden && context->hidden[id] != 0;
+    if (id == context->own || hidden || !ahead)
     {
       arguments->valid[i] = 0;
     }
@@ -153,6 +156,7 @@ SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
   for (const Brick& brick : set_.bricks())
   {
     scenes_.push_back(makeScene(device_.get()));
+    rtcSetSceneFlags(scenes_.back().get(), QueryFilterFlag);
     if (brick.count > 0)
     {
       addSpheres(scenes_.back().get(), brick);
@@ -202,18 +206,24 @@ void SphereScene::addTriangles(RTCScene scene, const OccluderMesh& mesh)
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene, geometry.get(), TriangleGeometry);
   // Of rays aimed at edges that triangles share, 5 % slip through without this, 0.1 % with it.
-  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(QueryFilterFlag | RTC_SCENE_FLAG_ROBUST));
 }
 
-bool SphereScene::occluded(Vec3f origin, Vec3f direction, float distance, unsigned own) const
+bool SphereScene::occluded(
+  Vec3f origin, Vec3f direction, float distance, unsigned own, const std::uint8_t* hidden) const
 {
-  return occludedFrom(&origin, 1, direction, distance, own) != 0;
+  const Rays rays{ &origin, 1, direction, distance, own, hidden };
+  return traceAll(rays) != 0;
 }
 
 unsigned SphereScene::occludedFrom(
   const Vec3f* origins, unsigned count, Vec3f direction, float distance, unsigned own) const
 {
-  const Rays rays{ origins, count, direction, distance, own };
+  return traceAll({ origins, count, direction, distance, own, nullptr });
+}
+
+unsigned SphereScene::traceAll(const Rays& rays) const
+{
   return scenes_.size() == 1 ? trace(scenes_.front().get(), rays) : traceBricks(rays);
 }
 
@@ -261,6 +271,7 @@ unsigned SphereScene::traceSingly(RTCScene scene, const Rays& rays) const
   OcclusionContext context;
   initRayQueryContext(context.embree, false);
   context.own = rays.own;
+  context.hidden = rays.hidden;
   unsigned stopped = 0;
   for (unsigned i = 0; i < rays.count; ++i)
   {
@@ -288,6 +299,7 @@ unsigned SphereScene::tracePacket(RTCScene scene, const Rays& rays) const
   OcclusionContext context;
   initRayQueryContext(context.embree, true);
   context.own = rays.own;
+  context.hidden = rays.hidden;
   alignas(64) int valid[PacketSize];
   RTCRay16 packet;
   for (unsigned i = 0; i < PacketSize; ++i)

@@ -6,6 +6,7 @@
 #include "OccluderMesh.h"
 #include "SphereSet.h"
 
+#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -60,7 +61,9 @@ public:
   /// @param direction unit vector; it must point out of sphere `own`
   /// @param distance length of the ray, infinity for an unbounded one
   /// @param own sphere the ray starts on, or None
-  [[nodiscard]] bool occluded(Vec3f origin, Vec3f direction, float distance, unsigned own) const;
+  /// @param hidden of each sphere: not 0 if the ray passes it; null: it passes none
+  [[nodiscard]] bool occluded(Vec3f origin, Vec3f direction, float distance, unsigned own,
+    const std::uint8_t* hidden = nullptr) const;
 
   /// Rays that occludedFrom() traces at once.
   static constexpr unsigned PacketSize = 16;
@@ -82,10 +85,12 @@ private:
     Vec3f direction;
     float distance;
     unsigned own;
+    const std::uint8_t* hidden;
   };
 
   void addSpheres(RTCScene scene, const Brick& brick);
   void addTriangles(RTCScene scene, const OccluderMesh& mesh);
+  [[nodiscard]] unsigned traceAll(const Rays& rays) const;
   [[nodiscard]] unsigned trace(RTCScene scene, const Rays& rays) const;
   [[nodiscard]] unsigned traceSingly(RTCScene scene, const Rays& rays) const;
   [[nodiscard]] unsigned tracePacket(RTCScene scene, const Rays& rays) const;

@@ -8,32 +8,6 @@
 
 namespace po
 {
-namespace
-{
-/// Angle from the x axis in (-pi, pi], to 3e-7 and one rounding; 0 at the origin.
-float fastAngle(float y, float x)
-{
-  // Odd polynomial for the arctangent on [0, 1] with the least maximum error, 3.8e-8, found by
-  // Lawson's iteration; the other octants follow by reflection.
-  constexpr float A[] = { 0.9999993443f, -0.3332985938f, 0.1994656473f, -0.1390862763f,
-    0.0964219347f, -0.0559122711f, 0.0218629166f, -0.0040545552f };
-  const float absX = std::abs(x), absY = std::abs(y);
-  const float larger = std::max(absX, absY), smaller = std::min(absX, absY);
-  const float q = larger > 0 ? smaller / larger : 0;
-  const float q2 = q * q;
-  float sum = A[7];
-  for (int k = 6; k >= 0; --k)
-  {
-    sum = sum * q2 + A[k];
-  }
-  constexpr auto HalfTurn = static_cast<float>(Pi);
-  float angle = sum * q;
-  angle = absY > absX ? HalfTurn / 2 - angle : angle;
-  angle = x < 0 ? HalfTurn - angle : angle;
-  return y < 0 ? -angle : angle;
-}
-}
-
 TextureCoordinate textureCoordinate(Vec3d d)
 {
   const double azimuth = std::atan2(d.y, d.x);
@@ -42,15 +16,6 @@ TextureCoordinate textureCoordinate(Vec3d d)
   double u = azimuth / (2 * Pi);
   u -= std::floor(u);
   return { u < 1 ? u : 0.0, polar / Pi }; // -1e-17 wraps to 1 by rounding
-}
-
-TextureCoordinate fastTextureCoordinate(Vec3f d)
-{
-  constexpr auto PerTurn = static_cast<float>(1 / (2 * Pi));
-  float u = PerTurn * fastAngle(d.y, d.x);
-  u = u < 0 ? u + 1 : u;
-  const float v = 2 * PerTurn * fastAngle(std::sqrt(d.x * d.x + d.y * d.y), d.z);
-  return { u < 1 ? u : 0, std::min(v, 1.0f) };
 }
 
 Vec3d textureDirection(TextureCoordinate c)

@@ -29,10 +29,6 @@ struct TextureCoordinate
 /// Texture coordinate of a direction of any length but zero; accurate at the poles too.
 [[nodiscard]] TextureCoordinate textureCoordinate(Vec3d direction);
 
-/// The same in single precision, without a call of the mathematical library: u and v are right to
-/// 3e-7, one 50,000th of a texel at a resolution of 64. For lookups of many pixels.
-[[nodiscard]] TextureCoordinate fastTextureCoordinate(Vec3f direction);
-
 /// Unit vector of a texture coordinate: the inverse of textureCoordinate.
 [[nodiscard]] Vec3d textureDirection(TextureCoordinate coordinate);
 

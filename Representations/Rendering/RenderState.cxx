@@ -108,6 +108,7 @@ Material materialOf(vtkProperty* property, bool anyLight)
   material.diffuse = property->GetDiffuse();
   material.specular = property->GetSpecular();
   material.specularPower = property->GetSpecularPower();
+  material.opacity = property->GetOpacity();
   material.ambientColor = toVec3f(property->GetAmbientColor());
   material.diffuseColor = toVec3f(property->GetDiffuseColor());
   material.specularColor = toVec3f(property->GetSpecularColor());

@@ -1,9 +1,12 @@
 //VTK::System::Dec
 
 // SPDX-License-Identifier: BSD-3-Clause
-// One texel a pixel of traced colour and depth; what is drawn already is tested by OpenGL.
+// One texel a pixel of traced colour and depth; what is drawn already is tested by OpenGL. Passes that
+// peel translucent surfaces put their code where it says so.
 
 //VTK::Output::Dec
+
+//VTK::DepthPeeling::Dec
 
 uniform sampler2D colors;
 uniform sampler2D depths;
@@ -18,5 +21,7 @@ void main()
     discard;
   }
   gl_FragDepth = depth;
+  //VTK::DepthPeeling::PreColor
   gl_FragData[0] = texture(colors, texCoord);
+  //VTK::DepthPeeling::Impl
 }

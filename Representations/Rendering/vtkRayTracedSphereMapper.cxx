@@ -4,12 +4,17 @@
 #include "BakedTextures.h"
 #include "FrameDrawer.h"
 #include "FrameLayers.h"
+#include "InteractiveResolution.h"
+#include "ParticleFilter.h"
+#include "PointColors.h"
 #include "RenderState.h"
+#include "SelectionColors.h"
 #include "SphereInput.h"
 #include "SphereRenderer.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
+#include "vtkCommand.h"
 #include "vtkHardwareSelector.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -24,7 +29,8 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <chrono>
 #include <exception>
 #include <tuple>
 
@@ -45,14 +51,35 @@ struct vtkRayTracedSphereMapper::Internals
   /// What the spheres were read from; they are read again when any of it changes.
   using Source = std::tuple<vtkPolyData*, vtkMTimeType, std::string, double, double>;
 
+  /// What decides which spheres are hidden.
+  using Crop = std::tuple<Source, std::vector<std::array<double, 4>>, std::vector<po::CropRange>,
+    std::uint64_t, std::uint64_t>;
+
   Source LastSource{ nullptr, 0, {}, 0, 0 };
+  std::uint64_t TexturesVersion = 0;
   po::SphereRenderer Renderer{ sharedScenes() };
   po::BakedTextures Baked;
-  po::FrameDrawer Drawer;
+  std::vector<po::CropRange> CropRanges;
+  po::BlockStyles BlockStyles;
+  std::uint64_t StylesVersion = 0;
+  Crop LastCrop;
+  vtkIdType HiddenSpheres = 0;
+  po::PointColors Colors;
+  po::InteractiveResolution Resolution;
+  po::FrameDrawer Drawer, SelectionDrawer;
+  std::uint64_t SelectionVersion = 0;
   std::vector<std::uint8_t> SelectionColors;
   vtkSmartPointer<vtkImageData> Layers;
-  bool LayersAreCurrent = false;
-  bool WarnedOfPeeling = false;
+  std::uint64_t LayersVersion = 0;
+
+  std::uint64_t VersionBase = 0; ///< pictures of renderers that are gone
+
+  /// Another number for other pictures.
+  [[nodiscard]] std::uint64_t pictureVersion() const
+  {
+    const po::RenderStatistics& s = this->Renderer.statistics();
+    return this->VersionBase + 1 + s.framesTraced + s.framesShaded + s.samplesTraced;
+  }
 };
 
 namespace
@@ -81,13 +108,12 @@ bool isBeingPeeled(vtkActor* actor)
     keys->Has(vtkOpenGLRenderPass::RenderPasses());
 }
 
-/// The 24 bits of an id from `shift` on, as the hardware selector reads them: lowest byte in red.
-void writeBits(std::int64_t id, int shift, std::uint8_t* rgba)
+/// Fewer pixels of the same view.
+po::Camera coarser(po::Camera camera, int reduction)
 {
-  const std::int64_t bits = id >> shift;
-  rgba[0] = static_cast<std::uint8_t>(bits & 0xff);
-  rgba[1] = static_cast<std::uint8_t>((bits >> 8) & 0xff);
-  rgba[2] = static_cast<std::uint8_t>((bits >> 16) & 0xff);
+  camera.width = std::max(1, camera.width / reduction);
+  camera.height = std::max(1, camera.height / reduction);
+  return camera;
 }
 }
 
@@ -112,7 +138,7 @@ void vtkRayTracedSphereMapper::UpdateSpheres()
     return;
   }
   this->Internal->LastSource = source;
-  this->Internal->LayersAreCurrent = false;
+  ++this->Internal->TexturesVersion;
   this->Internal->Renderer.setCloud({});
   this->Internal->Baked = {};
   if (!input || input->GetNumberOfPoints() == 0)
@@ -152,22 +178,14 @@ void vtkRayTracedSphereMapper::RenderPiece(vtkRenderer* renderer, vtkActor* acto
   {
     this->GetInputAlgorithm()->Update();
   }
-  if (isBeingPeeled(actor))
-  {
-    if (!this->Internal->WarnedOfPeeling)
-    {
-      vtkWarningMacro("Ray-traced spheres are opaque and cannot be drawn by depth peeling; call "
-                      "ForceOpaqueOn() of the actor to draw them.");
-    }
-    this->Internal->WarnedOfPeeling = true;
-    return;
-  }
   try
   {
     this->UpdateSpheres();
     if (!this->Internal->Renderer.cloud().spheres.empty())
     {
-      this->TraceAndDraw(renderer, actor);
+      this->UpdateColors(actor);
+      this->UpdateHidden(actor);
+      this->RenderSpheres(renderer, actor);
     }
   }
   catch (const std::exception& error)
@@ -176,7 +194,56 @@ void vtkRayTracedSphereMapper::RenderPiece(vtkRenderer* renderer, vtkActor* acto
   }
 }
 
-void vtkRayTracedSphereMapper::TraceAndDraw(vtkRenderer* renderer, vtkActor* actor)
+void vtkRayTracedSphereMapper::UpdateColors(vtkActor* actor)
+{
+  int cellFlag = 0;
+  const double opacity = actor->GetProperty()->GetOpacity();
+  vtkUnsignedCharArray* colors = this->MapScalars(this->GetInput(), opacity, cellFlag);
+  const bool onePerPoint = colors && cellFlag == 0 && colors->GetNumberOfComponents() == 4 &&
+    colors->GetNumberOfTuples() == this->GetInput()->GetNumberOfPoints();
+  Internals& internal = *this->Internal;
+  internal.Colors.update(*this->GetInput(), onePerPoint ? colors : nullptr, *actor->GetProperty(),
+    internal.BlockStyles, internal.StylesVersion);
+}
+
+void vtkRayTracedSphereMapper::UpdateHidden(vtkActor* actor)
+{
+  Internals& internal = *this->Internal;
+  po::Cropping cropping;
+  cropping.halfSpaces = po::clippingPlanesOf(*this, *actor);
+  std::vector<std::array<double, 4>> planes;
+  for (const po::HalfSpace& h : cropping.halfSpaces)
+  {
+    planes.push_back({ h.normal.x, h.normal.y, h.normal.z, h.offset });
+  }
+  const bool translucent = actor->HasTranslucentPolygonalGeometry();
+  const Internals::Crop crop{ internal.LastSource, planes, internal.CropRanges,
+    internal.StylesVersion, translucent ? internal.Colors.version() : 0 };
+  if (crop == internal.LastCrop)
+  {
+    return;
+  }
+  internal.LastCrop = crop;
+  std::string warning;
+  cropping.ranges = po::valueRangesOf(*this->GetInput(), internal.CropRanges, warning);
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  const po::SphereCloud& cloud = internal.Renderer.cloud();
+  std::vector<std::uint8_t> hidden = po::hideSpheres(cloud, cropping);
+  po::hideInvisible(cloud.sourceIds, po::blockTableOf(*this->GetInput()), internal.BlockStyles,
+    translucent ? internal.Colors.rgba() : nullptr, hidden);
+  internal.HiddenSpheres = std::count(hidden.begin(), hidden.end(), 1);
+  internal.Renderer.setHidden(std::move(hidden));
+}
+
+bool vtkRayTracedSphereMapper::IsInteractive(vtkRenderer* renderer)
+{
+  return this->InteractiveRate > 0 && renderer->GetRenderWindow()->GetDesiredUpdateRate() >= 1;
+}
+
+void vtkRayTracedSphereMapper::RenderSpheres(vtkRenderer* renderer, vtkActor* actor)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
   if (!window)
@@ -184,29 +251,93 @@ void vtkRayTracedSphereMapper::TraceAndDraw(vtkRenderer* renderer, vtkActor* act
     vtkErrorMacro("Ray-traced spheres need an OpenGL render window.");
     return;
   }
+  Internals& internal = *this->Internal;
   const po::PixelRectangle viewport = po::FrameDrawer::currentViewport(window);
-  const po::Camera camera = po::cameraOf(renderer, viewport.width, viewport.height);
-  if (!this->Internal->Renderer.trace(camera, po::placementOf(actor)))
+  const po::Matrix4 placement = po::placementOf(actor);
+  po::Camera camera = po::cameraOf(renderer, viewport.width, viewport.height);
+  const bool interactive = !renderer->GetSelector() && this->IsInteractive(renderer);
+  if (interactive && !internal.Renderer.isCurrent(camera, placement))
+  {
+    camera = coarser(
+      camera, internal.Resolution.reduction(camera.width, camera.height, this->InteractiveRate));
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const bool isNew = !internal.Renderer.isCurrent(camera, placement);
+  if (!internal.Renderer.trace(camera, placement))
   {
     return;
   }
-  vtkHardwareSelector* selector = renderer->GetSelector();
-  if (selector)
+  if (renderer->GetSelector())
   {
-    selector->BeginRenderProp();
-    this->ColorForSelection(renderer);
+    this->DrawForSelection(renderer, actor);
+    return;
   }
-  else
+  this->Shade(renderer, actor, !interactive);
+  this->Draw(renderer, actor);
+  if (isNew && internal.Renderer.samples() == 1)
   {
-    this->Shade(renderer, actor);
+    internal.Resolution.measured(internal.Renderer.frame().pixels(),
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  std::string error;
-  this->Internal->Drawer.draw(window, viewport,
-    selector ? this->Internal->SelectionColors : this->Internal->Renderer.rgba(),
-    this->Internal->Renderer.frame().windowDepth, error);
-  if (selector)
+}
+
+void vtkRayTracedSphereMapper::Shade(vtkRenderer* renderer, vtkActor* actor, bool refine)
+{
+  Internals& internal = *this->Internal;
+  po::Style style;
+  style.lights = po::lightsOf(renderer);
+  style.material = po::materialOf(actor->GetProperty(), !style.lights.empty());
+  style.material.mode = static_cast<po::ShadingMode>(this->ShadingMode);
+  style.material.occlusionOnDiffuse = this->OcclusionOnDiffuse;
+  style.material.translucent = actor->HasTranslucentPolygonalGeometry();
+  style.material.particleColors = internal.Colors.rgba();
+  style.material.colorsVersion = internal.Colors.version();
+  style.textures = internal.Baked.textures;
+  style.texturesVersion = internal.TexturesVersion;
+  style.shadows = this->Shadows;
+  const std::uint64_t before = internal.pictureVersion();
+  internal.Renderer.shade(style);
+  const bool isNew = before != internal.pictureVersion();
+  if (!refine || style.material.translucent)
   {
-    selector->EndRenderProp();
+    return;
+  }
+  const int next = this->Progressive
+    ? std::min(internal.Renderer.samples() + (isNew ? 0 : 1), this->SamplesPerPixel)
+    : this->SamplesPerPixel;
+  internal.Renderer.refine(next);
+  if (next < this->SamplesPerPixel)
+  {
+    this->InvokeEvent(vtkCommand::UpdateEvent);
+  }
+}
+
+void vtkRayTracedSphereMapper::Draw(vtkRenderer* renderer, vtkActor* actor)
+{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  Internals& internal = *this->Internal;
+  const po::TracedFrame& frame = internal.Renderer.frame();
+  std::vector<po::PixelLayer> layers{ { frame.width, frame.height, &internal.Renderer.rgba(),
+    &frame.windowDepth } };
+  for (const po::FrameLayer& layer : internal.Renderer.layersBehind())
+  {
+    layers.push_back({ frame.width, frame.height, &layer.rgba, &layer.frame.windowDepth });
+  }
+  const bool smooth = internal.Renderer.samples() > 1;
+  if (smooth)
+  {
+    layers.push_back(
+      { frame.width, frame.height, &internal.Renderer.rgba(), &internal.Renderer.rimDepth() });
+  }
+  std::string error = internal.Drawer.load(window, layers, internal.pictureVersion());
+  const bool translucent = actor->HasTranslucentPolygonalGeometry();
+  for (std::size_t i = layers.size(); i-- > 0 && error.empty();) // back to front
+  {
+    const po::Blending blending = isBeingPeeled(actor) ? po::Blending::Peeled
+      : translucent || (smooth && i > 0)               ? po::Blending::OverColors
+      : smooth                                         ? po::Blending::Over
+                                                       : po::Blending::None;
+    error = internal.Drawer.draw(window, i, blending, this, actor);
   }
   if (!error.empty())
   {
@@ -214,78 +345,101 @@ void vtkRayTracedSphereMapper::TraceAndDraw(vtkRenderer* renderer, vtkActor* act
   }
 }
 
-void vtkRayTracedSphereMapper::Shade(vtkRenderer* renderer, vtkActor* actor)
+void vtkRayTracedSphereMapper::DrawForSelection(vtkRenderer* renderer, vtkActor* actor)
 {
-  const std::vector<po::Light> lights = po::lightsOf(renderer);
-  po::Material material = po::materialOf(actor->GetProperty(), !lights.empty());
-  material.mode = static_cast<po::ShadingMode>(this->ShadingMode);
-  material.occlusionOnDiffuse = this->OcclusionOnDiffuse;
-  material.particleColors = this->MapPointColors();
-  this->Internal->Renderer.shade(material, this->Internal->Baked.textures, lights, this->Shadows);
-  this->Internal->LayersAreCurrent = false;
-}
-
-const unsigned char* vtkRayTracedSphereMapper::MapPointColors()
-{
-  int cellFlag = 0;
-  vtkUnsignedCharArray* colors = this->MapScalars(this->GetInput(), 1.0, cellFlag);
-  const bool onePerPoint = colors && cellFlag == 0 && colors->GetNumberOfComponents() == 4 &&
-    colors->GetNumberOfTuples() == this->GetInput()->GetNumberOfPoints();
-  return onePerPoint ? colors->GetPointer(0) : nullptr;
-}
-
-void vtkRayTracedSphereMapper::ColorForSelection(vtkRenderer* renderer)
-{
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
+  Internals& internal = *this->Internal;
+  const po::TracedFrame& frame = internal.Renderer.frame();
   vtkHardwareSelector* selector = renderer->GetSelector();
-  const int pass = selector->GetCurrentPass();
-  if (pass == vtkHardwareSelector::COMPOSITE_INDEX_PASS)
+  selector->BeginRenderProp();
+  po::colorForSelection(*selector, frame, internal.Renderer.cloud().sourceIds, *this->GetInput(),
+    internal.SelectionColors);
+  std::string error = internal.SelectionDrawer.load(window,
+    { { frame.width, frame.height, &internal.SelectionColors, &frame.windowDepth } },
+    ++internal.SelectionVersion);
+  if (error.empty())
   {
-    selector->RenderCompositeIndex(1);
+    error = internal.SelectionDrawer.draw(window, 0, po::Blending::None, this, actor);
   }
-  const po::TracedFrame& frame = this->Internal->Renderer.frame();
-  const std::vector<std::int64_t>& points = this->Internal->Renderer.cloud().sourceIds;
-  selector->UpdateMaximumPointId(points.back());
-  selector->UpdateMaximumCellId(points.back());
-  const bool low =
-    pass == vtkHardwareSelector::POINT_ID_LOW24 || pass == vtkHardwareSelector::CELL_ID_LOW24;
-  const bool high =
-    pass == vtkHardwareSelector::POINT_ID_HIGH24 || pass == vtkHardwareSelector::CELL_ID_HIGH24;
-  float flat[3];
-  selector->GetPropColorValue(flat);
+  selector->EndRenderProp();
+  if (!error.empty())
+  {
+    vtkErrorMacro(<< error);
+  }
+}
 
-  std::vector<std::uint8_t>& rgba = this->Internal->SelectionColors;
-  rgba.assign(4 * frame.pixels(), 255);
-  for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
-  {
-    if (frame.sphere[pixel] == po::SphereScene::None)
-    {
-      continue;
-    }
-    if (low || high)
-    {
-      writeBits(points[frame.sphere[pixel]], high ? 24 : 0, &rgba[4 * pixel]);
-      continue;
-    }
-    std::transform(flat, flat + 3, &rgba[4 * pixel],
-      [](float value) { return static_cast<std::uint8_t>(std::lround(255 * value)); });
-  }
+bool vtkRayTracedSphereMapper::HasTranslucentPolygonalGeometry()
+{
+  const auto isTranslucent = [](const auto& block)
+  { return block.second.visible && block.second.opacity && *block.second.opacity < 1; };
+  const po::BlockStyles& styles = this->Internal->BlockStyles;
+  return std::any_of(styles.begin(), styles.end(), isTranslucent) ||
+    this->Superclass::HasTranslucentPolygonalGeometry();
+}
+
+bool vtkRayTracedSphereMapper::HasOpaqueGeometry()
+{
+  return !this->HasTranslucentPolygonalGeometry();
+}
+
+void vtkRayTracedSphereMapper::AddCropRange(
+  const char* array, int component, double low, double high)
+{
+  this->Internal->CropRanges.push_back({ array ? array : "", component, low, high });
+  this->Modified();
+}
+
+void vtkRayTracedSphereMapper::RemoveAllCropRanges()
+{
+  this->Internal->CropRanges.clear();
+  this->Modified();
+}
+
+void vtkRayTracedSphereMapper::SetBlockVisibility(unsigned flatIndex, bool visible)
+{
+  this->Internal->BlockStyles[flatIndex].visible = visible;
+  ++this->Internal->StylesVersion;
+  this->Modified();
+}
+
+void vtkRayTracedSphereMapper::SetBlockColor(
+  unsigned flatIndex, double red, double green, double blue)
+{
+  this->Internal->BlockStyles[flatIndex].color = po::Vec3d{ red, green, blue };
+  ++this->Internal->StylesVersion;
+  this->Modified();
+}
+
+void vtkRayTracedSphereMapper::SetBlockOpacity(unsigned flatIndex, double opacity)
+{
+  this->Internal->BlockStyles[flatIndex].opacity = opacity;
+  ++this->Internal->StylesVersion;
+  this->Modified();
+}
+
+void vtkRayTracedSphereMapper::RemoveAllBlockStyles()
+{
+  this->Internal->BlockStyles.clear();
+  ++this->Internal->StylesVersion;
+  this->Modified();
 }
 
 vtkImageData* vtkRayTracedSphereMapper::GetLayers()
 {
-  if (!this->Internal->LayersAreCurrent)
+  Internals& internal = *this->Internal;
+  if (!internal.Renderer.isShaded())
   {
-    const po::SphereRenderer& spheres = this->Internal->Renderer;
-    const bool shaded = spheres.isShaded();
-    this->Internal->Layers = shaded ? po::newLayers(spheres.frame().width, spheres.frame().height)
-                                    : vtkSmartPointer<vtkImageData>::New();
-    if (shaded)
-    {
-      po::fillLayers(spheres, this->Internal->Baked.textures, 0, this->Internal->Layers);
-    }
-    this->Internal->LayersAreCurrent = true;
+    internal.Layers = vtkSmartPointer<vtkImageData>::New();
+    internal.LayersVersion = 0;
   }
-  return this->Internal->Layers;
+  else if (internal.LayersVersion != internal.pictureVersion())
+  {
+    internal.Layers =
+      po::newLayers(internal.Renderer.frame().width, internal.Renderer.frame().height);
+    po::fillLayers(internal.Renderer, internal.Baked.textures, 0, internal.Layers);
+    internal.LayersVersion = internal.pictureVersion();
+  }
+  return internal.Layers;
 }
 
 vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::RenderLayers(
@@ -320,6 +474,8 @@ vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::TraceLayers(
   {
     return vtkSmartPointer<vtkImageData>::New();
   }
+  this->UpdateColors(actor);
+  this->UpdateHidden(actor);
   this->GetLayers(); // keep those of the last frame, which is lost
   const po::Camera camera = po::cameraOfPicture(renderer, width, height);
   vtkSmartPointer<vtkImageData> layers = po::newLayers(width, height);
@@ -331,20 +487,23 @@ vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::TraceLayers(
     {
       return vtkSmartPointer<vtkImageData>::New();
     }
-    this->Shade(renderer, actor);
+    this->Shade(renderer, actor, false);
+    spheres.refine(this->SamplesPerPixel);
     po::fillLayers(spheres, this->Internal->Baked.textures, first, layers);
   }
-  this->Internal->LayersAreCurrent = true;
+  this->Internal->LayersVersion = this->Internal->pictureVersion();
   return layers;
 }
 
 void vtkRayTracedSphereMapper::ReleaseSpheres()
 {
   this->Internal->LastSource = { nullptr, 0, {}, 0, 0 };
+  this->Internal->LastCrop = {};
+  this->Internal->VersionBase = this->Internal->pictureVersion();
   this->Internal->Renderer = po::SphereRenderer(sharedScenes());
   this->Internal->Baked = {};
   this->Internal->Layers = nullptr;
-  this->Internal->LayersAreCurrent = false;
+  this->Internal->LayersVersion = 0;
 }
 
 vtkIdType vtkRayTracedSphereMapper::GetNumberOfScenes()
@@ -355,12 +514,30 @@ vtkIdType vtkRayTracedSphereMapper::GetNumberOfScenes()
 void vtkRayTracedSphereMapper::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Internal->Drawer.releaseGraphicsResources(window);
+  this->Internal->SelectionDrawer.releaseGraphicsResources(window);
   this->Superclass::ReleaseGraphicsResources(window);
 }
 
 vtkIdType vtkRayTracedSphereMapper::GetNumberOfSpheres()
 {
   return static_cast<vtkIdType>(this->Internal->Renderer.cloud().spheres.size());
+}
+
+vtkIdType vtkRayTracedSphereMapper::GetNumberOfShownSpheres()
+{
+  return this->GetNumberOfSpheres() - this->Internal->HiddenSpheres;
+}
+
+int vtkRayTracedSphereMapper::GetNumberOfSamples()
+{
+  return this->Internal->Renderer.samples();
+}
+
+int vtkRayTracedSphereMapper::GetNumberOfLayers()
+{
+  return this->Internal->Renderer.isShaded()
+    ? 1 + static_cast<int>(this->Internal->Renderer.layersBehind().size())
+    : 0;
 }
 
 vtkIdType vtkRayTracedSphereMapper::GetNumberOfRays()
@@ -423,4 +600,7 @@ void vtkRayTracedSphereMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShadingMode: " << this->ShadingMode << '\n';
   os << indent << "OcclusionOnDiffuse: " << (this->OcclusionOnDiffuse ? "on" : "off") << '\n';
   os << indent << "Shadows: " << (this->Shadows ? "on" : "off") << '\n';
+  os << indent << "SamplesPerPixel: " << this->SamplesPerPixel << '\n';
+  os << indent << "Progressive: " << (this->Progressive ? "on" : "off") << '\n';
+  os << indent << "InteractiveRate: " << this->InteractiveRate << '\n';
 }

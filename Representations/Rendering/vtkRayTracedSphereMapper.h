@@ -10,13 +10,18 @@
  * spheres and other props interpenetrate. Points that cannot be spheres (NaN, infinite or negative
  * radius) are left out and reported once. Cells are not used.
  *
- * A frame is kept: it is traced again only when spheres, camera, window size or placement change,
- * and shadows of a light only when that light moves. Colours, coefficients and lookup tables cost
- * shading alone.
+ * Points are cropped as wholes, without building anything anew: by ranges of arrays
+ * (AddCropRange()) and by the mapper's clipping planes, which keep the points whose centres are in
+ * front of them. Shadows are those of what is shown.
  *
- * Spheres are opaque: opacity is not used. An actor whose property is translucent would be drawn in
- * the translucent pass, where depth peeling needs more than one surface a pixel; call
- * vtkActor::ForceOpaqueOn() for such an actor.
+ * A frame is kept: it is traced again only when spheres, cropping, camera, window size or placement
+ * change, and shadows of a light only when that light moves. Colours, coefficients and lookup
+ * tables cost shading alone.
+ *
+ * With opacities below 1, of the property or of the lookup table, what is behind translucent
+ * spheres is traced too, layer by layer. A sphere is seen by its front. Depth peeling sorts the
+ * layers among other translucent props (vtkRenderer::UseDepthPeeling); without it they lie over
+ * what was drawn before. Translucent spheres cast whole shadows; those of opacity 0 are not there.
  */
 #ifndef vtkRayTracedSphereMapper_h
 #define vtkRayTracedSphereMapper_h
@@ -85,6 +90,45 @@ public:
   vtkBooleanMacro(Shadows, bool);
   ///@}
 
+  ///@{
+  /// Shows only points whose value of a point array is from low to high (NaN is not); several
+  /// ranges hold together. Component -1 is the magnitude. Default: none, all points are shown.
+  void AddCropRange(const char* array, int component, double low, double high);
+  void RemoveAllCropRanges();
+  ///@}
+
+  ///@{
+  /// Looks of single blocks of the composite data set that the points were gathered from, by flat
+  /// index. Default: none.
+  void SetBlockVisibility(unsigned flatIndex, bool visible);
+  void SetBlockColor(unsigned flatIndex, double red, double green, double blue);
+  void SetBlockOpacity(unsigned flatIndex, double opacity);
+  void RemoveAllBlockStyles();
+  ///@}
+
+  ///@{
+  /// Rays a pixel, 1 to 256, each through another place of it, for smooth edges. Depth stays that
+  /// of the pixel's centre. The rim of a sphere is mixed with what was drawn before. Not for
+  /// translucent spheres. Default 1.
+  vtkSetClampMacro(SamplesPerPixel, int, 1, 256);
+  vtkGetMacro(SamplesPerPixel, int);
+  ///@}
+
+  ///@{
+  /// Each time the same picture is rendered again one ray a pixel is added, in place of all of them
+  /// the first time. While there are more to add, UpdateEvent is invoked. Default off.
+  vtkSetMacro(Progressive, bool);
+  vtkGetMacro(Progressive, bool);
+  vtkBooleanMacro(Progressive, bool);
+  ///@}
+
+  ///@{
+  /// Frames a second to reach while the window asks for speed (its DesiredUpdateRate is at least 1,
+  /// as while the user drags): frames become as coarse as that takes. 0: never coarse. Default 15.
+  vtkSetClampMacro(InteractiveRate, double, 0, 1000);
+  vtkGetMacro(InteractiveRate, double);
+  ///@}
+
   /// The last frame that was drawn, rows from the bottom, with the point arrays RGBA (uint8), Z
   /// (float32, distance along the eye ray or, in parallel projection, the view direction, in world
   /// units; +infinity on background), AO (float32), N (float32[3], world-space unit normal) and id
@@ -106,15 +150,19 @@ public:
   static vtkIdType GetNumberOfScenes();
 
   ///@{
-  /// What was done: spheres that are drawn; of the last frame that was traced the rays (primary and
-  /// shadow), tiles that were skipped and shadow rays that were saved; frames traced so far.
+  /// What was done: spheres that are there, and those of them that are shown; of the last frame
+  /// that was traced the rays (primary and shadow), tiles that were skipped and shadow rays that
+  /// were saved; frames traced so far.
   vtkIdType GetNumberOfSpheres();
+  vtkIdType GetNumberOfShownSpheres();
   vtkIdType GetNumberOfRays();
   vtkIdType GetNumberOfShadowRays();
   vtkIdType GetNumberOfSkippedTiles();
   vtkIdType GetNumberOfSkippedShadowRays();
   vtkIdType GetNumberOfTracedFrames();
   vtkIdType GetNumberOfTracedShadows(); ///< shadow masks of single lights, traced so far
+  int GetNumberOfSamples();             ///< rays a pixel in the last frame
+  int GetNumberOfLayers();              ///< of spheres, one behind the other, in the last frame
   ///@}
 
   ///@{
@@ -127,8 +175,8 @@ public:
 
   void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
-  bool HasOpaqueGeometry() override { return true; }
-  bool HasTranslucentPolygonalGeometry() override { return false; }
+  bool HasOpaqueGeometry() override;
+  bool HasTranslucentPolygonalGeometry() override;
   bool GetSupportsSelection() override { return true; }
 
 protected:
@@ -142,12 +190,15 @@ private:
   void operator=(const vtkRayTracedSphereMapper&) = delete;
 
   void UpdateSpheres();
-  void TraceAndDraw(vtkRenderer* renderer, vtkActor* actor);
-  void Shade(vtkRenderer* renderer, vtkActor* actor);
+  void UpdateColors(vtkActor* actor);
+  void UpdateHidden(vtkActor* actor);
+  void RenderSpheres(vtkRenderer* renderer, vtkActor* actor);
+  void Shade(vtkRenderer* renderer, vtkActor* actor, bool refine);
+  void Draw(vtkRenderer* renderer, vtkActor* actor);
+  void DrawForSelection(vtkRenderer* renderer, vtkActor* actor);
+  bool IsInteractive(vtkRenderer* renderer);
   vtkSmartPointer<vtkImageData> TraceLayers(
     vtkRenderer* renderer, vtkActor* actor, int width, int height, int pixelsPerBand);
-  const unsigned char* MapPointColors();
-  void ColorForSelection(vtkRenderer* renderer);
 
   char* RadiusArray = nullptr;
   double RadiusScale = 1;
@@ -155,6 +206,9 @@ private:
   int ShadingMode = BOTH;
   bool OcclusionOnDiffuse = true;
   bool Shadows = false;
+  int SamplesPerPixel = 1;
+  bool Progressive = false;
+  double InteractiveRate = 15;
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

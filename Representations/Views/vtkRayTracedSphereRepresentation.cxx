@@ -2,13 +2,20 @@
 #include "vtkRayTracedSphereRepresentation.h"
 
 #include "BakedTextures.h"
+#include "BlockLooks.h"
+#include "BlockTable.h"
 #include "Blocks.h"
 #include "ControllerGroup.h"
 #include "ParticleDelivery.h"
+#include "RefinementTimer.h"
 #include "SphereInput.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataAssemblyUtilities.h"
 #include "vtkDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -18,6 +25,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
+#include "vtkPlane.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProcessModule.h"
@@ -27,10 +35,45 @@
 #include "vtkRenderer.h"
 #include "vtkScalarsToColors.h"
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkRayTracedSphereRepresentation);
+
+/// What the panel's properties say about cropping; turned into the mapper's planes and ranges.
+struct vtkRayTracedSphereRepresentation::Cropping
+{
+  struct Range
+  {
+    std::string Array;
+    int Component;
+    double Low, High;
+  };
+
+  std::string Array;
+  int Component = -1;
+  std::array<double, 2> Limits{ -1e300, 1e300 };
+  std::vector<Range> MoreRanges;
+  bool Plane = false, Box = false;
+  std::array<double, 3> PlaneOrigin{ 0, 0, 0 }, PlaneNormal{ 0, 0, 1 };
+  std::array<double, 3> BoxOrigin{ 0, 0, 0 }, BoxSize{ 1, 1, 1 };
+  bool IsNew = true;
+};
+
+struct vtkRayTracedSphereRepresentation::Blocks
+{
+  po::BlockLooks Looks;
+  std::pair<vtkPolyData*, vtkMTimeType> Applied; ///< the points that the mapper's styles are for
+  bool IsNew = true;
+};
+
+struct vtkRayTracedSphereRepresentation::Refinement
+{
+  std::unique_ptr<po::RefinementTimer> Timer;
+  vtkNew<vtkCallbackCommand> Command; ///< called when the mapper has more to add
+};
 
 namespace
 {
@@ -55,6 +98,56 @@ vtkSmartPointer<vtkPointSet> pointsOf(vtkDataSet* data)
   return computed;
 }
 
+void addPlane(vtkRayTracedSphereMapper* mapper, const double* origin, const double* normal)
+{
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(origin);
+  plane->SetNormal(normal);
+  mapper->AddClippingPlane(plane);
+}
+
+/// The six planes of a box along the axes.
+void addBox(vtkRayTracedSphereMapper* mapper, const std::array<double, 3>& origin,
+  const std::array<double, 3>& size)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (const double end : { 0.0, 1.0 })
+    {
+      std::array<double, 3> point = origin, normal{ 0, 0, 0 };
+      point[axis] += end * size[axis];
+      normal[axis] = end == 0 ? 1 : -1;
+      addPlane(mapper, point.data(), normal.data());
+    }
+  }
+}
+
+/// Which points are of which block.
+void keepBlocks(vtkCompositeDataSet& data, const std::vector<vtkSmartPointer<vtkPointSet>>& blocks,
+  vtkPolyData& points)
+{
+  const std::vector<unsigned> indices = po::flatIndicesOfBlocks(&data);
+  po::BlockTable table;
+  vtkIdType first = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    table.push_back({ indices[i], first });
+    first += blocks[i]->GetNumberOfPoints();
+  }
+  po::setBlockTable(points, table);
+  po::keepHierarchy(data, points);
+}
+
+/// The flag is for views alone, but no event tells of it.
+struct ScreenshotAccess : vtkPVRenderView
+{
+  static bool isCapturing(vtkPVRenderView& view)
+  {
+    bool (vtkPVView::*flag)() = &ScreenshotAccess::GetInCaptureScreenshot;
+    return (view.*flag)();
+  }
+};
+
 /// All blocks that have points.
 std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
 {
@@ -69,11 +162,23 @@ std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
 
 vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
   : Delivered(std::make_unique<po::DeliveredParticles>())
+  , Crop(std::make_unique<Cropping>())
+  , BlockStyles(std::make_unique<Blocks>())
+  , Refine(std::make_unique<Refinement>())
 {
   vtkMath::UninitializeBounds(this->Bounds);
   this->Actor->SetMapper(this->Mapper);
-  // Without this an opacity below 1 would send the spheres to the translucent pass.
-  this->Actor->ForceOpaqueOn();
+  this->Refine->Command->SetClientData(this);
+  this->Refine->Command->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*)
+    {
+      auto* me = static_cast<vtkRayTracedSphereRepresentation*>(self);
+      if (me->Refine->Timer)
+      {
+        me->Refine->Timer->start();
+      }
+    });
+  this->Mapper->AddObserver(vtkCommand::UpdateEvent, this->Refine->Command);
 }
 
 vtkRayTracedSphereRepresentation::~vtkRayTracedSphereRepresentation() = default;
@@ -87,6 +192,7 @@ bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
   }
   this->View = renderView;
   renderView->GetRenderer()->AddActor(this->Actor);
+  this->Refine->Timer = std::make_unique<po::RefinementTimer>(renderView);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::AddToView(view);
 }
@@ -99,8 +205,9 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
     return false;
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
+  this->Refine->Timer.reset();
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
-  this->Mapper->ReleaseSpheres();
+  this->ReleaseMemory();
   return this->Superclass::RemoveFromView(view);
 }
 
@@ -122,6 +229,11 @@ int vtkRayTracedSphereRepresentation::RequestData(
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);
+  }
+  auto* composite = vtkCompositeDataSet::SafeDownCast(vtkDataObject::GetData(inputVector[0], 0));
+  if (composite)
+  {
+    keepBlocks(*composite, blocks, *this->Particles);
   }
   this->ResolveRadii();
   const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
@@ -163,6 +275,8 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
       vtkWarningMacro(<< warning);
     }
     this->UpdateColoring();
+    this->UpdateCropping();
+    this->UpdateRefinement();
   }
   return 1;
 }
@@ -205,12 +319,64 @@ void vtkRayTracedSphereRepresentation::UpdateColoring()
   this->Mapper->SelectColorArray(colored ? name : nullptr);
 }
 
+/// What the next frame would need is made again then.
+void vtkRayTracedSphereRepresentation::ReleaseMemory()
+{
+  this->Mapper->ReleaseSpheres();
+  this->Mapper->SetInputDataObject(nullptr);
+  *this->Delivered = po::DeliveredParticles();
+}
+
+void vtkRayTracedSphereRepresentation::UpdateCropping()
+{
+  vtkPolyData* points = this->Mapper->GetInput();
+  const std::pair<vtkPolyData*, vtkMTimeType> source{ points, points ? points->GetMTime() : 0 };
+  if (points && (this->BlockStyles->IsNew || source != this->BlockStyles->Applied))
+  {
+    this->BlockStyles->Looks.apply(*points, *this->Mapper);
+    this->BlockStyles->Applied = source;
+    this->BlockStyles->IsNew = false;
+  }
+  Cropping& crop = *this->Crop;
+  if (!crop.IsNew)
+  {
+    return;
+  }
+  crop.IsNew = false;
+  this->Mapper->RemoveAllCropRanges();
+  this->Mapper->RemoveAllClippingPlanes();
+  if (!crop.Array.empty())
+  {
+    this->Mapper->AddCropRange(crop.Array.c_str(), crop.Component, crop.Limits[0], crop.Limits[1]);
+  }
+  for (const Cropping::Range& range : crop.MoreRanges)
+  {
+    this->Mapper->AddCropRange(range.Array.c_str(), range.Component, range.Low, range.High);
+  }
+  if (crop.Plane)
+  {
+    addPlane(this->Mapper, crop.PlaneOrigin.data(), crop.PlaneNormal.data());
+  }
+  if (crop.Box)
+  {
+    addBox(this->Mapper, crop.BoxOrigin, crop.BoxSize);
+  }
+}
+
+void vtkRayTracedSphereRepresentation::UpdateRefinement()
+{
+  // Only what this process alone draws on a screen can be refined step by step.
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  this->Mapper->SetProgressive(view && !ScreenshotAccess::isCapturing(*view) &&
+    view->GetInteractor() && !view->GetUseDistributedRenderingForRender());
+}
+
 void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 {
   this->Actor->SetVisibility(visible);
   if (!visible)
   {
-    this->Mapper->ReleaseSpheres();
+    this->ReleaseMemory();
   }
   this->Superclass::SetVisibility(visible);
 }
@@ -253,6 +419,134 @@ void vtkRayTracedSphereRepresentation::SetOcclusionOnDiffuse(bool on)
 void vtkRayTracedSphereRepresentation::SetShadows(bool on)
 {
   this->Mapper->SetShadows(on);
+}
+
+void vtkRayTracedSphereRepresentation::SetSamplesPerPixel(int samples)
+{
+  this->Mapper->SetSamplesPerPixel(samples);
+}
+
+void vtkRayTracedSphereRepresentation::SetInteractiveRate(double framesPerSecond)
+{
+  this->Mapper->SetInteractiveRate(framesPerSecond);
+}
+
+// Cropping takes effect when the view is rendered next; nothing is updated for it.
+
+void vtkRayTracedSphereRepresentation::AddCropRange(
+  const char* array, int component, double low, double high)
+{
+  this->Crop->MoreRanges.push_back({ array ? array : "", component, low, high });
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::RemoveAllCropRanges()
+{
+  this->Crop->MoreRanges.clear();
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropArray(
+  int, int, int, int association, const char* name)
+{
+  const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  const bool isOne = name && std::string(name) != po::RadiusSettings::NoArray;
+  this->Crop->Array = ofPoints && isOne ? name : "";
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropComponent(int component)
+{
+  this->Crop->Component = component;
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropRange(double low, double high)
+{
+  this->Crop->Limits = { low, high };
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropPlane(bool on)
+{
+  this->Crop->Plane = on;
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropPlaneOrigin(double x, double y, double z)
+{
+  this->Crop->PlaneOrigin = { x, y, z };
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropPlaneNormal(double x, double y, double z)
+{
+  this->Crop->PlaneNormal = { x, y, z };
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropBox(bool on)
+{
+  this->Crop->Box = on;
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropBoxOrigin(double x, double y, double z)
+{
+  this->Crop->BoxOrigin = { x, y, z };
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetCropBoxSize(double x, double y, double z)
+{
+  this->Crop->BoxSize = { x, y, z };
+  this->Crop->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetActiveAssembly(const char* name)
+{
+  if (name && std::string(name) != vtkDataAssemblyUtilities::HierarchyName())
+  {
+    vtkWarningMacro("Ray-traced spheres know blocks by the assembly \"Hierarchy\" only, not by \""
+      << name << "\".");
+  }
+}
+
+void vtkRayTracedSphereRepresentation::AddBlockSelector(const char* selector)
+{
+  this->BlockStyles->Looks.visible.emplace_back(selector ? selector : "");
+  this->BlockStyles->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::RemoveAllBlockSelectors()
+{
+  this->BlockStyles->Looks.visible.clear();
+  this->BlockStyles->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetBlockColor(
+  const char* selector, double red, double green, double blue)
+{
+  this->BlockStyles->Looks.colors.push_back({ selector ? selector : "", { red, green, blue } });
+  this->BlockStyles->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::RemoveAllBlockColors()
+{
+  this->BlockStyles->Looks.colors.clear();
+  this->BlockStyles->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::SetBlockOpacity(const char* selector, double opacity)
+{
+  this->BlockStyles->Looks.opacities.emplace_back(selector ? selector : "", opacity);
+  this->BlockStyles->IsNew = true;
+}
+
+void vtkRayTracedSphereRepresentation::RemoveAllBlockOpacities()
+{
+  this->BlockStyles->Looks.opacities.clear();
+  this->BlockStyles->IsNew = true;
 }
 
 void vtkRayTracedSphereRepresentation::SetLookupTable(vtkScalarsToColors* table)
@@ -349,6 +643,21 @@ vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSpheres()
   return this->Mapper->GetNumberOfSpheres();
 }
 
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfShownSpheres()
+{
+  return this->Mapper->GetNumberOfShownSpheres();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfTracedFrames()
+{
+  return this->Mapper->GetNumberOfTracedFrames();
+}
+
+int vtkRayTracedSphereRepresentation::GetNumberOfSamples()
+{
+  return this->Mapper->GetNumberOfSamples();
+}
+
 vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfScenes()
 {
   return vtkRayTracedSphereMapper::GetNumberOfScenes();
@@ -432,6 +741,11 @@ void vtkRayTracedSphereRepresentation::SetDiffuse(double coefficient)
 void vtkRayTracedSphereRepresentation::SetDiffuseColor(double r, double g, double b)
 {
   this->Actor->GetProperty()->SetDiffuseColor(r, g, b);
+}
+
+void vtkRayTracedSphereRepresentation::SetOpacity(double opacity)
+{
+  this->Actor->GetProperty()->SetOpacity(opacity);
 }
 
 void vtkRayTracedSphereRepresentation::SetSpecular(double coefficient)

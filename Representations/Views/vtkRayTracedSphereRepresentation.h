@@ -4,8 +4,12 @@
  * @brief Shows the points of any data set as ray-traced spheres in a render view.
  *
  * The points of all blocks are shown together; textures that were baked onto the blocks stay with
- * their particles. Colour, light and shadows are those of vtkRayTracedSphereMapper, which documents
- * the parameters. Spheres are opaque: opacity is not used.
+ * their particles. Colour, light, shadows, cropping and opacity are those of
+ * vtkRayTracedSphereMapper, which documents the parameters. Whatever is cropped, the bounds are
+ * those of all particles, so that the view stays as it is.
+ *
+ * A still picture is refined while nothing changes (SamplesPerPixel); screenshots wait for all of
+ * it.
  */
 #ifndef vtkRayTracedSphereRepresentation_h
 #define vtkRayTracedSphereRepresentation_h
@@ -53,17 +57,60 @@ public:
   void SetShadingMode(int mode);
   void SetOcclusionOnDiffuse(bool on);
   void SetShadows(bool on);
+  void SetSamplesPerPixel(int samples);
+  void SetInteractiveRate(double framesPerSecond);
+  void AddCropRange(const char* array, int component, double low, double high);
+  void RemoveAllCropRanges();
   void SetLookupTable(vtkScalarsToColors* table);
   vtkImageData* GetLayers();
   vtkIdType GetNumberOfSpheres();
+  vtkIdType GetNumberOfShownSpheres();
   vtkIdType GetNumberOfScenes();
   vtkIdType GetNumberOfRays();
   vtkIdType GetNumberOfShadowRays();
   vtkIdType GetNumberOfSkippedTiles();
   vtkIdType GetNumberOfSkippedShadowRays();
+  vtkIdType GetNumberOfTracedFrames();
+  int GetNumberOfSamples();
   double GetTraceSeconds();
   double GetShadowSeconds();
   double GetShadeSeconds();
+  ///@}
+
+  ///@{
+  /// One range for the panel, beside those of AddCropRange: shows only particles whose value of the
+  /// array is within it. Without a name (default), or with another association than points, there
+  /// is no such range. Component -1 (default) is the magnitude.
+  void SetCropArray(int index, int port, int connection, int association, const char* name);
+  void SetCropComponent(int component);
+  void SetCropRange(double low, double high);
+  ///@}
+
+  ///@{
+  /// Shows only particles whose centres lie in front of a plane. Default off.
+  void SetCropPlane(bool on);
+  void SetCropPlaneOrigin(double x, double y, double z);
+  void SetCropPlaneNormal(double x, double y, double z); ///< points to what is shown
+  ///@}
+
+  ///@{
+  /// Shows only particles whose centres lie in a box along the axes. Default off.
+  void SetCropBox(bool on);
+  void SetCropBoxOrigin(double x, double y, double z); ///< the lower corner
+  void SetCropBoxSize(double x, double y, double z);
+  ///@}
+
+  ///@{
+  /// Blocks of a composite data set by selectors in its hierarchy: those that are shown (default
+  /// "/", all), and those with a colour or an opacity of their own. Other assemblies than the
+  /// hierarchy are not supported.
+  void SetActiveAssembly(const char* name);
+  void AddBlockSelector(const char* selector);
+  void RemoveAllBlockSelectors();
+  void SetBlockColor(const char* selector, double red, double green, double blue);
+  void RemoveAllBlockColors();
+  void SetBlockOpacity(const char* selector, double opacity);
+  void RemoveAllBlockOpacities();
   ///@}
 
   ///@{
@@ -100,6 +147,7 @@ public:
   void SetAmbientColor(double r, double g, double b);
   void SetDiffuse(double coefficient);
   void SetDiffuseColor(double r, double g, double b);
+  void SetOpacity(double opacity);
   void SetSpecular(double coefficient);
   void SetSpecularColor(double r, double g, double b);
   void SetSpecularPower(double power);
@@ -122,9 +170,12 @@ private:
   [[nodiscard]] bool DrawsHere();
   vtkSmartPointer<vtkImageData> MakeLayers();
   void ProvideData(vtkInformation* inInfo);
+  void ReleaseMemory();
   void ResolveRadii();
   void UpdateBounds();
   void UpdateColoring();
+  void UpdateCropping();
+  void UpdateRefinement();
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
@@ -139,6 +190,13 @@ private:
   std::string LayersFile;
   int LayersResolution[2] = { 0, 0 };
   vtkWeakPointer<vtkPVRenderView> View;
+
+  struct Cropping;
+  std::unique_ptr<Cropping> Crop;
+  struct Blocks;
+  std::unique_ptr<Blocks> BlockStyles;
+  struct Refinement;
+  std::unique_ptr<Refinement> Refine;
 };
 
 #endif

@@ -3,20 +3,20 @@
 /// leave (method Reference).
 ///
 /// Usage: BenchmarkSweep [--method sweep|embree] [--count N] [--judged N] [--distance D] [--samples
-/// N] [family or file]...
+/// N] [scene]...
 ///
-/// A family is one of SyntheticSpheres; a file holds text lines "x y z radius". Errors are taken
+/// Scenes, families and .vtp files among them, are told in BenchmarkScenes.h. Errors are taken
 /// over a few particles against Reference with many more rays and another seed: area-weighted RMS
 /// of linear visibility over the outside part of the texels. The Reference's time is measured on
 /// the same particles and scaled to all, as is that of Embree, on up to 2,000 particles. Seconds
 /// are those of the process: all threads together.
 
+#include "BenchmarkScenes.h"
 #include "EmbreeEstimator.h"
 #include "OcclusionBaker.h"
 #include "Random.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
-#include "SyntheticSpheres.h"
 #include "TexelMap.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
+#include <exception>
 #include <iostream>
 #include <numeric>
 #include <string>
@@ -54,34 +54,6 @@ struct Error
   double rms = 0;
   double bias = 0;
 };
-
-po::SphereCloud readCloud(const std::string& name, std::size_t count)
-{
-  std::vector<double> data;
-  if (const auto family = po::syntheticFamilyFromName(name))
-  {
-    const po::SyntheticSpheres spheres = po::makeSyntheticSpheres(*family, count, 1);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      data.insert(data.end(), spheres.centers[i].begin(), spheres.centers[i].end());
-      data.push_back(static_cast<double>(spheres.radii[i]));
-    }
-  }
-  else
-  {
-    std::ifstream file(name);
-    for (double value = 0; file >> value;)
-    {
-      data.push_back(value);
-    }
-  }
-  return po::makeSphereCloud(
-    data.size() / 4,
-    [&](std::size_t i) {
-      return po::Vec3d{ data[4 * i], data[4 * i + 1], data[4 * i + 2] };
-    },
-    [&](std::size_t i) { return data[4 * i + 3]; });
-}
 
 double cpuSeconds()
 {
@@ -185,7 +157,7 @@ double secondsAt(double error, double error0, double seconds0, double error1, do
 
 void benchmark(const std::string& name, const Options& options)
 {
-  const po::SphereCloud cloud = readCloud(name, options.count);
+  const po::SphereCloud cloud = po::makeBenchmarkScene(name, options.count);
   const po::BakeScene scene(cloud);
   const std::size_t particles = cloud.spheres.size();
   std::vector<unsigned> all(particles);
@@ -281,6 +253,7 @@ Options readOptions(int argc, char** argv)
 }
 
 int main(int argc, char** argv)
+try
 {
   const Options options = readOptions(argc, argv);
   std::printf("| scene (spheres) | method | CPU seconds | RMSE | bias | estimated | ratio |\n");
@@ -290,4 +263,9 @@ int main(int argc, char** argv)
     benchmark(scene, options);
   }
   return 0;
+}
+catch (const std::exception& error)
+{
+  std::cerr << "BenchmarkSweep: " << error.what() << "\n";
+  return 1;
 }

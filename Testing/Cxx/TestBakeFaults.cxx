@@ -17,9 +17,6 @@
 
 #include <gtest/gtest.h>
 
-#include <malloc.h>
-#include <sys/resource.h>
-
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -341,60 +338,6 @@ TEST_P(BakeFaults, AbortsLeaveTheInputAndTheNextBakeItsBits)
   EXPECT_GT(aborted, 0);
   EXPECT_TRUE(bake.bits() == whole);
 }
-
-/// Lets this process have `bytes` of address space more than it has. Memory that it holds already,
-/// TBB's threads too, stays.
-class AddressSpaceLimit
-{
-public:
-  explicit AddressSpaceLimit(rlim_t bytes)
-  {
-    malloc_trim(0); // what was freed before would come on top
-    getrlimit(RLIMIT_AS, &before_);
-    long pages = 0;
-    if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
-    {
-      EXPECT_EQ(std::fscanf(file, "%ld", &pages), 1);
-      std::fclose(file);
-    }
-    const rlimit limit = { static_cast<rlim_t>(pages) * 4096 + bytes, before_.rlim_max };
-    setrlimit(RLIMIT_AS, &limit);
-  }
-  ~AddressSpaceLimit() { setrlimit(RLIMIT_AS, &before_); }
-  AddressSpaceLimit(const AddressSpaceLimit&) = delete;
-  AddressSpaceLimit& operator=(const AddressSpaceLimit&) = delete;
-
-private:
-  rlimit before_ = {};
-};
-
-#ifndef PARTICLEOCCLUSION_SANITIZED // sanitizers need more address space than there is
-TEST_P(BakeFaults, TheSystemMayRefuseMemory)
-{
-  // 16 MB of textures, more than once; of the slow reference 1 MB.
-  SmallBake bake(GetParam(), lattice(10));
-  bake.filter->SetTextureResolution(GetParam() == Method::Reference ? 16 : 64);
-  bake.filter->SetSamplesPerTexel(1);
-  bake.filter->SetMaximumDistance(0.1);
-  bake.filter->SetEncoding(vtkSphereAmbientOcclusion::Float32Linear);
-  const std::string whole = bake.bits();
-  int failures = 0;
-  for (rlim_t megabytes : { 1, 3, 6, 12, 20, 30, 40, 50, 60, 70, 80, 100 })
-  {
-    const std::string error = bake.errorUnder(
-      [&](const auto& run)
-      {
-        const AddressSpaceLimit limit(megabytes << 20);
-        run();
-      },
-      whole);
-    EXPECT_TRUE(error.empty() || error.find("emory") != std::string::npos) << error;
-    failures += !error.empty();
-  }
-  EXPECT_GT(failures, 2);
-  EXPECT_TRUE(bake.bits() == whole);
-}
-#endif
 
 /// What the filter may use, in megabytes above what the process has.
 class Budget

@@ -56,7 +56,7 @@ struct Shot
 Shot shoot(const std::vector<Sphere>& spheres, const PrimaryRays& rays)
 {
   Shot shot;
-  shot.counters = traceFrame(SphereScene(spheres), rays, shot.frame);
+  shot.counters = traceFrame(SphereScene(spheres), rays, {}, shot.frame);
   return shot;
 }
 
@@ -268,7 +268,7 @@ TEST(FrameTracer, SameFrameForAnyNumberOfThreads)
   {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     TracedFrame frame;
-    (void)traceFrame(scene, rays, frame);
+    (void)traceFrame(scene, rays, {}, frame);
     first = threads == 1 ? frame : first;
     EXPECT_EQ(frame.t, first.t) << threads;
     EXPECT_EQ(frame.sphere, first.sphere) << threads;

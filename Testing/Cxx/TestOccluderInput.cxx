@@ -310,7 +310,9 @@ TEST(OccluderInput, ErrorsNameThePort)
     const std::string error = errorOf(filter);
     EXPECT_NE(error.find("Occluders"), std::string::npos) << error;
     EXPECT_NE(error.find(says), std::string::npos) << error;
-    EXPECT_EQ(vtkPolyData::SafeDownCast(filter->GetOutput())->GetNumberOfPoints(), 0);
+    vtkPointData* passedOn = vtkPolyData::SafeDownCast(filter->GetOutput())->GetPointData();
+    EXPECT_TRUE(passedOn->HasArray("radius"));
+    EXPECT_FALSE(passedOn->HasArray("AmbientOcclusion"));
   };
   const auto nothing = [](vtkSphereAmbientOcclusion*) {};
 

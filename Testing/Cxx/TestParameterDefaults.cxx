@@ -4,6 +4,7 @@
 
 #include "BakeSettings.h"
 #include "ParameterTable.h"
+#include "SphereInput.h"
 
 #include "vtkDepthSilhouettes.h"
 #include "vtkNew.h"
@@ -18,7 +19,7 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
   vtkNew<vtkSphereAmbientOcclusion> f;
   const double* up = f->GetBackgroundUp();
   const ParameterTable defaults{
-    { "RadiusArray", { f->GetRadiusArray() } },
+    { "RadiusArray", { po::RadiusSettings::Automatic } }, // what no name asks for
     { "RadiusScale", { f->GetRadiusScale() } },
     { "ConstantRadius", { f->GetConstantRadius() } },
     { "TextureResolution", { f->GetTextureResolution() } },
@@ -42,6 +43,7 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
 TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
 {
   vtkNew<vtkSphereAmbientOcclusion> f;
+  EXPECT_EQ(f->GetRadiusArray(), nullptr);
   const po::BakeSettings core;
   EXPECT_EQ(f->GetTextureResolution(), core.textureResolution);
   EXPECT_EQ(f->GetSamplesPerTexel(), core.samplesPerTexel);

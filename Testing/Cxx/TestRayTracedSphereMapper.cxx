@@ -2,6 +2,7 @@
 // What the mapper keeps, answers and reports.
 // Real windows: these tests need a display with OpenGL, Xvfb for instance.
 #include "MemoryGrowth.h"
+#include "ParameterTable.h"
 #include "RayTracedSphereTestScene.h"
 #include "VTKErrors.h"
 
@@ -157,6 +158,40 @@ TEST(RayTracedSphereMapper, WindowsAndResourcesComeAndGo)
   scene.window->SetSize(50, 40);
   scene.window->SetMultiSamples(0);
   EXPECT_EQ(differingShare(first, grab(scene.window)), 0);
+}
+
+TEST(RayTracedSphereMapper, DefaultsAreThoseOfTheXml)
+{
+  const auto root = vtk::TakeSmartPointer(
+    vtkXMLUtilities::ReadElementFromFile(PLUGIN_XML_DIR "/Representations.xml"));
+  ASSERT_TRUE(root);
+  vtkXMLDataElement* proxy = findProxy(root, "RayTracedSphereRepresentation");
+  ASSERT_TRUE(proxy);
+  vtkNew<vtkRayTracedSphereMapper> mapper;
+  const std::map<std::string, double> defaults{
+    { "RadiusScale", mapper->GetRadiusScale() },
+    { "ConstantRadius", mapper->GetConstantRadius() },
+    { "ShadingMode", mapper->GetShadingMode() },
+    { "OcclusionOnDiffuse", mapper->GetOcclusionOnDiffuse() },
+    { "Shadows", mapper->GetShadows() },
+    { "SamplesPerPixel", mapper->GetSamplesPerPixel() },
+    { "InteractiveRate", mapper->GetInteractiveRate() },
+  };
+  for (const auto& [name, value] : defaults)
+  {
+    vtkXMLDataElement* property = nullptr;
+    for (int i = 0; i < proxy->GetNumberOfNestedElements(); ++i)
+    {
+      vtkXMLDataElement* element = proxy->GetNestedElement(i);
+      const char* own = element->GetAttribute("name");
+      property = own && own == name ? element : property;
+    }
+    ASSERT_TRUE(property) << name;
+    double inXml = -1;
+    EXPECT_EQ(property->GetScalarAttribute("default_values", inXml), 1) << name;
+    EXPECT_EQ(inXml, value) << name;
+    EXPECT_EQ(property->GetAttribute("command"), "Set" + name);
+  }
 }
 
 /// Spheres whose number and arrays change every time the pipeline is asked: in the midst of a

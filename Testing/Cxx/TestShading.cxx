@@ -22,11 +22,11 @@ TEST(Shadows, SphereAboveSphereIsADiscOfItsRadius)
   const Camera camera{ down, parallel(-2, 2, -2, 2, 0, 10), 101, 101 };
   const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
   TracedFrame frame;
-  (void)traceFrame(scene, rays, frame);
+  (void)traceFrame(scene, rays, {}, frame);
   Light light;
   light.direction = { 0, -1, 0 };
   std::vector<std::uint8_t> lit;
-  const ShadowCounters counters = traceShadows(scene, rays, frame, light, lit);
+  const ShadowCounters counters = traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_EQ(counters.rays, 101u * 101u);
   EXPECT_EQ(counters.skipped, 0u);
   for (int y = 0; y < 101; ++y)
@@ -51,11 +51,11 @@ TEST(Shadows, TheLitHalfOfALoneSphereHasNoSpeckle)
     301 };
   const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
   TracedFrame frame;
-  (void)traceFrame(scene, rays, frame);
+  (void)traceFrame(scene, rays, {}, frame);
   Light light;
   light.direction = normalized(Vec3d{ -1, -0.3, -0.1 });
   std::vector<std::uint8_t> lit;
-  const ShadowCounters counters = traceShadows(scene, rays, frame, light, lit);
+  const ShadowCounters counters = traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_GT(counters.skipped, 10000u);
   for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
   {
@@ -73,15 +73,15 @@ TEST(Shadows, OccludersBehindAPositionalLightCastNone)
   const Camera camera = lookAtOrigin(true, 4.5, 0.5, 5, 5, 0.1, 20);
   const PrimaryRays rays = *PrimaryRays::make(camera, Identity);
   TracedFrame frame;
-  (void)traceFrame(scene, rays, frame);
+  (void)traceFrame(scene, rays, {}, frame);
   Light light;
   light.positional = true;
   std::vector<std::uint8_t> lit;
   light.position = { 0, 0, 4 };
-  (void)traceShadows(scene, rays, frame, light, lit);
+  (void)traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_EQ(lit[12], 1);
   light.position = { 0, 0, 8 };
-  (void)traceShadows(scene, rays, frame, light, lit);
+  (void)traceShadows(scene, nullptr, rays, frame, light, lit);
   EXPECT_EQ(lit[12], 0);
 }
 
@@ -173,7 +173,7 @@ protected:
   ShadedSphere()
     : rays(*PrimaryRays::make(lookAtOrigin(false, 10, 0.5, 3, 3, 1, 20), Identity))
   {
-    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, frame);
+    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, {}, frame);
     lights.front().direction = { 0, 0, -1 };
     half = OcclusionTextures(1, halfOpen.data(), rows.data(), nullptr);
   }
@@ -251,7 +251,7 @@ TEST_F(ShadedSphere, IsTheSameAtAnyScaleOfTheWorld)
   {
     const Matrix4 scaled{ s, 0, 0, 0, 0, s, 0, 0, 0, 0, s, 0, 0, 0, 0, 1 };
     rays = *PrimaryRays::make(lookAtOrigin(false, 10 * s, 0.5 * s, 3, 3, s, 20 * s), scaled);
-    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, frame);
+    (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, {}, frame);
     EXPECT_EQ(middle(none, m), expected) << s;
   }
 }

@@ -18,12 +18,17 @@
 namespace
 {
 /// The mean values of a bake with the default method, by point.
-std::vector<float> meansOf(vtkPolyData* input, int method = vtkSphereAmbientOcclusion::Sweep)
+std::vector<float> meansOf(
+  vtkPolyData* input, int method = vtkSphereAmbientOcclusion::Sweep, int samples = 0)
 {
   vtkNew<vtkSphereAmbientOcclusion> filter;
   filter->SetInputData(input);
   filter->SetTextureResolution(4);
   filter->SetMethod(method);
+  if (samples > 0)
+  {
+    filter->SetSamplesPerTexel(samples);
+  }
   EXPECT_EQ(errorOf(filter), "");
   auto* output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
   vtkDataArray* means = output->GetPointData()->GetArray("AmbientOcclusion");
@@ -187,7 +192,10 @@ TEST(StressArrays, BlocksAndEmptyPiecesMakeNoDifference)
 
 TEST(StressArrays, CloudsWiderThanFloatsComeOutAsTheyWouldAlone)
 {
-  // Two lattices 1e9 radii apart: each particle sees its own neighbours alone.
+  // Two lattices 1e9 radii apart: each particle sees its own neighbours alone. The random numbers
+  // of Reference differ: of 2 x 16 x 400 unstratified rays the difference of two means would have a
+  // standard deviation of 0.009 at most, and 54 exceed 3.4 of these with a probability of 0.04;
+  // stratified ones leave less (measured: 0.013 at most).
   const vtkSmartPointer<vtkPolyData> near = lattice(3);
   const vtkSmartPointer<vtkPolyData> both = lattice(3);
   vtkNew<vtkPoints> points;
@@ -204,8 +212,8 @@ TEST(StressArrays, CloudsWiderThanFloatsComeOutAsTheyWouldAlone)
   for (const int method : { vtkSphereAmbientOcclusion::Sweep, vtkSphereAmbientOcclusion::Embree,
          vtkSphereAmbientOcclusion::Reference })
   {
-    const std::vector<float> alone = meansOf(near, method);
-    const std::vector<float> together = meansOf(both, method);
+    const std::vector<float> alone = meansOf(near, method, 400);
+    const std::vector<float> together = meansOf(both, method, 400);
     ASSERT_EQ(together.size(), 2 * alone.size());
     for (std::size_t i = 0; i < together.size(); ++i)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constants.h"
 #include "Random.h"
+#include "TexelLookup.h"
 #include "TexelMap.h"
 
 #include <gtest/gtest.h>
@@ -51,31 +52,73 @@ TEST(TexelMap, AxesLieWhereTheConventionSays)
   EXPECT_NEAR(po::textureCoordinate({ 1e-6, 0, 1 }).v, 1e-6 / Pi, 1e-18);
 }
 
-TEST(TexelMap, FastCoordinatesAreWithinTheirBound)
+/// Texels and weights of one direction.
+struct Found
 {
-  po::Random random(2, 0, 0);
-  for (int i = 0; i < 200000; ++i)
+  int column0, column1, row0, row1;
+  float columnWeight, rowWeight;
+};
+
+Found find(int resolution, po::Vec3f direction)
+{
+  po::TexelLookup lookup;
+  for (std::size_t i = 0; i < po::TexelLookup::Size; ++i)
+  {
+    lookup.x[i] = direction.x;
+    lookup.y[i] = direction.y;
+    lookup.z[i] = direction.z;
+  }
+  po::findTexels(resolution, lookup);
+  constexpr std::size_t Last = po::TexelLookup::Size - 1;
+  return { lookup.column0[Last], lookup.column1[Last], lookup.row0[Last], lookup.row1[Last],
+    lookup.columnWeight[Last], lookup.rowWeight[Last] };
+}
+
+TEST(TexelLookup, AgreesWithTheExactCoordinates)
+{
+  constexpr int resolution = 64;
+  po::Random random(5, 0, 0);
+  for (int i = 0; i < 100000; ++i)
   {
     const po::TextureCoordinate c{ random.uniform(), random.uniform() };
-    const po::Vec3f d = po::textureDirection(c).as<float>();
+    const po::Vec3f d = 3.0f * po::textureDirection(c).as<float>();
     const po::TextureCoordinate exact = po::textureCoordinate(d.as<double>());
-    const po::TextureCoordinate fast = po::fastTextureCoordinate(d);
-    const double across = std::abs(fast.u - exact.u);
-    ASSERT_LT(std::min(across, 1 - across), 3e-7) << c.u << ' ' << c.v;
-    ASSERT_NEAR(fast.v, exact.v, 3e-7) << c.u << ' ' << c.v;
-    ASSERT_TRUE(fast.u >= 0 && fast.u < 1 && fast.v >= 0 && fast.v <= 1);
+    const Found found = find(resolution, d);
+    const double x = exact.u * resolution - 0.5, y = exact.v * resolution - 0.5;
+    const double across = std::abs(found.column0 + double(found.columnWeight) - x);
+    const double down = found.row0 + double(found.rowWeight) - y;
+    ASSERT_LT(std::min(across, std::abs(across - resolution)), 64 * 3e-7) << c.u << ' ' << c.v;
+    // Above the middle of the first row both rows are the first.
+    ASSERT_TRUE(std::abs(down) < 64 * 3e-7 || (found.row0 == 0 && found.row1 == 0 && y < 0))
+      << c.u << ' ' << c.v;
+    ASSERT_EQ(found.column1, (found.column0 + 1) % resolution);
+    ASSERT_EQ(found.row1, y < 0 ? 0 : std::min(found.row0 + 1, resolution - 1));
   }
 }
 
-TEST(TexelMap, FastCoordinatesOfAxesAndNothing)
+TEST(TexelLookup, StaysInsideAtAxesAndNowhere)
 {
-  EXPECT_EQ(po::fastTextureCoordinate({ 0, 0, 2 }).v, 0);
-  EXPECT_EQ(po::fastTextureCoordinate({ 0, 0, -2 }).v, 1);
-  EXPECT_EQ(po::fastTextureCoordinate({ 1, 0, 0 }).u, 0);
-  EXPECT_NEAR(po::fastTextureCoordinate({ -1, 0, 0 }).u, 0.5, 1e-7);
-  EXPECT_NEAR(po::fastTextureCoordinate({ -1, -0.0f, 0 }).u, 0.5, 1e-7);
-  EXPECT_LT(po::fastTextureCoordinate({ 1, -1e-30f, 0 }).u, 1);
-  EXPECT_EQ(po::fastTextureCoordinate({ 0, 0, 0 }).u, 0);
+  for (const po::Vec3f d : { po::Vec3f{ 0, 0, 2 }, po::Vec3f{ 0, 0, -2 }, po::Vec3f{ 1, 0, 0 },
+         po::Vec3f{ 1, -1e-30f, 0 }, po::Vec3f{ -1, -0.0f, 0 }, po::Vec3f{ 0, 0, 0 } })
+  {
+    for (const int resolution : { 1, 2, 64 })
+    {
+      const Found found = find(resolution, d);
+      for (const int i : { found.column0, found.column1, found.row0, found.row1 })
+      {
+        EXPECT_TRUE(i >= 0 && i < resolution) << d.x << ' ' << d.y << ' ' << d.z;
+      }
+      for (const float weight : { found.columnWeight, found.rowWeight })
+      {
+        EXPECT_TRUE(weight >= 0 && weight <= 1) << d.x << ' ' << d.y << ' ' << d.z;
+      }
+    }
+  }
+  EXPECT_EQ(find(64, { 0, 0, 2 }).row1, 0);
+  EXPECT_EQ(find(64, { 0, 0, -2 }).row0, 63);
+  EXPECT_EQ(find(64, { 1, 0, 0 }).column0, 63);
+  EXPECT_NEAR(find(64, { 1, 0, 0 }).columnWeight, 0.5, 1e-5);
+  EXPECT_EQ(find(64, { -1, 0, 0 }).column0, 31);
 }
 
 TEST(TexelMap, TexelPointsStayInTheirTexelAndAreUniform)

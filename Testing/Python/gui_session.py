@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a user does in the ParaView window: load the plugin, open a file, apply the filter, choose the
-representation, outline it, save a picture and the state. Run by test_gui.py inside `paraview`."""
+representation, outline it, save a picture and the state; switch representations, change colours, crop, select,
+load the state, and wait for smooth edges. Run by test_gui.py inside `paraview`."""
 import os
 import traceback
 
@@ -30,7 +31,85 @@ def session():
     ResetCamera(view)
     Render(view)
     SaveScreenshot(os.path.join(OUTPUT, "gui.png"), view, ImageResolution=[400, 300])
+    use_display(baked, display, view)
     SaveState(os.path.join(OUTPUT, "gui.pvsm"))
+    wait_for_smooth_edges(*load_state())
+
+
+def counter(display, name):
+    display.SMProxy.UpdatePropertyInformation()
+    return display.SMProxy.GetProperty(name).GetElement(0)
+
+
+def expect(truth, what):
+    if not truth:
+        raise RuntimeError(what)
+
+
+def use_display(baked, display, view):
+    """The panel shows the display's properties, with widgets in the view, while they are changed."""
+    SetActiveView(view)
+    SetActiveSource(baked)
+    everything = counter(display, "NumberOfShownSpheres")
+    for representation in ("Points", "Ray-Traced Spheres"):
+        display.SetRepresentationType(representation)
+        Render(view)
+    frames = counter(display, "NumberOfTracedFrames")
+    ColorBy(display, ("POINTS", "AmbientOcclusion"))
+    GetColorTransferFunction("AmbientOcclusion").RescaleTransferFunction(0, 2)
+    Render(view)
+    expect(counter(display, "NumberOfTracedFrames") == frames, "a colour map has cost rays")
+
+    display.CropArray, display.CropRange = ["POINTS", "AmbientOcclusion"], [0.2, 2]
+    Render(view)
+    cropped = counter(display, "NumberOfShownSpheres")
+    expect(0 < cropped < everything, f"{cropped} of {everything} particles are within the range")
+    display.CropPlane = display.CropBox = 1
+    Render(view)
+    half = counter(display, "NumberOfShownSpheres")
+    expect(0 < half < cropped, f"{half} particles are before a plane through the middle")
+    display.CropPlane = display.CropBox = 0
+
+    middle = [int(size / 2) for size in view.ViewSize]
+    SelectSurfacePoints(Rectangle=[middle[0] - 20, middle[1] - 20, middle[0] + 20, middle[1] + 20], View=view)
+    ids = list(baked.GetSelectionInput(0).Input[0].IDs)[1::2]
+    expect(ids, "nothing is selected in the middle of the view")
+    extracted = servermanager.Fetch(ExtractSelection(Input=baked, Selection=baked.GetSelectionInput(0)))
+    values = extracted.GetPointData().GetArray("AmbientOcclusion")
+    expect(min(values.GetValue(i) for i in range(values.GetNumberOfTuples())) >= 0.2, "a hidden particle is selected")
+    ClearSelection(baked)
+
+
+def load_state():
+    """The view and display of the state, which ParaView now shows."""
+    views = set(GetRenderViews())
+    LoadState(os.path.join(OUTPUT, "gui.pvsm"))
+    for view in GetRenderViews():
+        for display in view.Representations if view not in views else []:
+            if list(getattr(display, "CropRange", [])) == [0.2, 2]:
+                return view, display
+    raise RuntimeError("the state has lost the crop range")
+
+
+def wait_for_smooth_edges(view, display):
+    """Goes on in ParaView's event loop, after this script."""
+    SetActiveView(view)
+    display.SamplesPerPixel = 8
+    view.CameraViewAngle = 31
+    Render(view)
+    expect(counter(display, "NumberOfSamples") == 1, "the first picture was not shown at once")
+    interactor = view.GetInteractor()
+    waits = []
+
+    def look(*_):
+        waits.append(1)
+        if counter(display, "NumberOfSamples") == 8:
+            end("passed")
+        elif len(waits) > 600:
+            end(f"the picture has {counter(display, 'NumberOfSamples')} of 8 rays a pixel after a minute")
+
+    interactor.AddObserver("TimerEvent", look)
+    interactor.CreateRepeatingTimer(100)
 
 
 def end(outcome):
@@ -43,6 +122,5 @@ def end(outcome):
 
 try:
     session()
-    end("passed")
 except BaseException:
     end(traceback.format_exc())

@@ -8,6 +8,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 
 import images
 import servers
@@ -44,6 +45,15 @@ if port:
 """
 
 
+def wait_for(file):
+    """Whether a file is there within a minute."""
+    for _ in range(300):
+        if os.path.exists(file):
+            return True
+        time.sleep(0.2)
+    return False
+
+
 def run_session(executable, folder, name, port=0, threshold=0):
     """Runs the session; returns the path of its picture."""
     picture = os.path.join(folder, name + ".png")
@@ -52,7 +62,8 @@ def run_session(executable, folder, name, port=0, threshold=0):
         file.write(SESSION.format(port=port, threshold=threshold, picture=picture,
                                   data=os.path.join(DATA, "molecule.vtp")))
     done = subprocess.run([executable, script], capture_output=True, text=True, timeout=100, check=False)
-    complete = os.path.exists(picture) and os.path.exists(picture + ".exr")
+    # A server goes on with what it was asked for after its client has left.
+    complete = wait_for(picture) and wait_for(picture + ".exr")
     if done.returncode != 0 or not complete or "ERR|" in done.stderr:
         raise SystemExit(f"{name} failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")
     return picture

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cropping, layers behind translucent spheres, smooth edges, and what is kept between frames.
+#include "Cropping.h"
+#include "InteractiveResolution.h"
+#include "SphereRenderer.h"
+#include "TestViews.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace
+{
+using namespace po;
+
+SphereCloud randomCloud(std::size_t count)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> position(-6, 6), radius(0.3, 1.0);
+  std::vector<Vec3d> centers(count);
+  std::vector<double> radii(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    centers[i] = { position(random), position(random), position(random) };
+    radii[i] = radius(random);
+  }
+  return makeSphereCloud(
+    count, [&](std::size_t i) { return centers[i]; }, [&](std::size_t i) { return radii[i]; });
+}
+
+Camera view(int width = 120, int height = 90)
+{
+  return lookAtOrigin(true, 30, 8, width, height, 1, 100);
+}
+
+/// The fronts of all shown spheres along a ray, nearest first: in double precision, by trying all.
+std::vector<double> frontsAlong(
+  const SphereCloud& cloud, const std::vector<std::uint8_t>& hidden, const PrimaryRay& ray)
+{
+  std::vector<double> fronts;
+  for (std::size_t i = 0; i < cloud.spheres.size(); ++i)
+  {
+    const Sphere& s = cloud.spheres[i];
+    const Vec3d oc = ray.origin - s.center().as<double>();
+    const double b = dot(oc, ray.direction);
+    const Vec3d foot = oc - b * ray.direction;
+    const double squared = double(s.radius) * s.radius - dot(foot, foot);
+    if (squared >= 0 && (hidden.empty() || hidden[i] == 0))
+    {
+      fronts.push_back((-b - std::sqrt(squared)) * ray.worldPerLocal);
+    }
+  }
+  std::sort(fronts.begin(), fronts.end());
+  return fronts;
+}
+
+Style directLight()
+{
+  Style style;
+  style.material.mode = ShadingMode::DirectLight;
+  style.lights.resize(1);
+  style.lights[0].direction = normalized(Vec3d{ -1, -2, -1 });
+  return style;
+}
+
+TEST(Cropping, HidesByRangesAndHalfSpacesTogether)
+{
+  const SphereCloud cloud = randomCloud(500);
+  const double nan = std::nan("");
+  Cropping cropping;
+  EXPECT_TRUE(hideSpheres(cloud, cropping).empty());
+  cropping.halfSpaces.push_back({ { 1, 0, 0 }, 2 });
+  cropping.ranges.push_back({ [=](std::int64_t i) { return i == 7 ? nan : double(i); }, 3, 400 });
+  const std::vector<std::uint8_t> hidden = hideSpheres(cloud, cropping);
+  ASSERT_EQ(hidden.size(), 500u);
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < 500; ++i)
+  {
+    const double x = cloud.toWorld(cloud.spheres[i].center().as<double>()).x;
+    ASSERT_EQ(hidden[i] == 0, x >= -2 && i >= 3 && i <= 400 && i != 7) << i;
+    shown += hidden[i] == 0;
+  }
+  EXPECT_GT(shown, 100u);
+}
+
+TEST(SphereRenderer, HiddenSpheresAreNeitherSeenNorCastShadowsAndNothingIsBuiltAnew)
+{
+  SphereRenderer renderer;
+  renderer.setCloud(randomCloud(2000));
+  Style style = directLight();
+  style.shadows = true;
+  ASSERT_TRUE(renderer.trace(view(), Identity));
+  renderer.shade(style);
+  const double build = renderer.statistics().buildSeconds;
+
+  Cropping cropping;
+  cropping.halfSpaces.push_back({ { 0.6, 0, -0.8 }, 0.5 });
+  const std::vector<std::uint8_t> hidden = hideSpheres(renderer.cloud(), cropping);
+  renderer.setHidden(hidden);
+  EXPECT_FALSE(renderer.isShaded());
+  ASSERT_TRUE(renderer.trace(view(), Identity));
+  renderer.shade(style);
+  EXPECT_EQ(renderer.statistics().buildSeconds, build) << "the scene is kept";
+
+  // The same cloud, in the same coordinates, of the shown spheres alone.
+  SphereCloud rest = renderer.cloud();
+  rest.spheres.clear();
+  rest.sourceIds.clear();
+  for (std::size_t i = 0; i < hidden.size(); ++i)
+  {
+    if (hidden[i] == 0)
+    {
+      rest.spheres.push_back(renderer.cloud().spheres[i]);
+      rest.sourceIds.push_back(renderer.cloud().sourceIds[i]);
+    }
+  }
+  ASSERT_GT(rest.spheres.size(), 500u);
+  ASSERT_LT(rest.spheres.size(), 1500u);
+  SphereRenderer alone;
+  alone.setCloud(rest);
+  ASSERT_TRUE(alone.trace(view(), Identity));
+  alone.shade(style);
+  EXPECT_GT(alone.statistics().trace.hits, 3000u);
+  EXPECT_EQ(renderer.rgba(), alone.rgba());
+  EXPECT_EQ(renderer.frame().t, alone.frame().t);
+
+  renderer.setHidden(hidden);
+  EXPECT_TRUE(renderer.isShaded()) << "the same spheres are hidden";
+}
+
+TEST(SphereRenderer, HidingEverythingShowsNothing)
+{
+  SphereRenderer renderer;
+  renderer.setCloud(randomCloud(300));
+  renderer.setHidden(std::vector<std::uint8_t>(300, 1));
+  ASSERT_TRUE(renderer.trace(view(), Identity));
+  EXPECT_EQ(renderer.statistics().trace.hits, 0u);
+}
+
+TEST(SphereRenderer, LayersAreTheFrontsOneBehindTheOther)
+{
+  SphereRenderer renderer;
+  renderer.setCloud(randomCloud(400));
+  std::vector<std::uint8_t> hidden(400);
+  for (std::size_t i = 0; i < 400; i += 5)
+  {
+    hidden[i] = 1;
+  }
+  renderer.setHidden(hidden);
+  Style style = directLight();
+  style.material.translucent = true;
+  style.material.opacity = 0.1;
+  style.maximumLayers = 6;
+  ASSERT_TRUE(renderer.trace(view(60, 45), Identity));
+  renderer.shade(style);
+  ASSERT_EQ(renderer.layersBehind().size(), 5u);
+  std::size_t compared = 0;
+  for (std::size_t pixel = 0; pixel < renderer.frame().pixels(); ++pixel)
+  {
+    const auto x = static_cast<double>(pixel % 60) + 0.5, y = double(pixel / 60) + 0.5;
+    const std::vector<double> expected =
+      frontsAlong(renderer.cloud(), hidden, renderer.rays().at(x, y));
+    for (std::size_t k = 0; k < 6; ++k)
+    {
+      const TracedFrame& frame = k == 0 ? renderer.frame() : renderer.layersBehind()[k - 1].frame;
+      ASSERT_EQ(std::isfinite(frame.t[pixel]), k < expected.size()) << pixel << ' ' << k;
+      if (k < expected.size())
+      {
+        ASSERT_NEAR(frame.t[pixel], expected[k], 1e-6) << pixel << ' ' << k;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 3000u);
+}
+
+TEST(SphereRenderer, LayersStopWhereNothingShinesThroughAndAreKept)
+{
+  SphereRenderer renderer;
+  renderer.setCloud(randomCloud(400));
+  Style style = directLight();
+  style.material.translucent = true;
+  style.material.opacity = 0.99; // 1 % comes through one layer, nothing visible through two
+  ASSERT_TRUE(renderer.trace(view(), Identity));
+  renderer.shade(style);
+  EXPECT_EQ(renderer.layersBehind().size(), 1u);
+  const std::size_t traced = renderer.statistics().layersTraced;
+  style.material.diffuseColor = { 1, 0, 0 };
+  renderer.shade(style);
+  EXPECT_EQ(renderer.statistics().layersTraced, traced) << "a colour asks for no rays";
+  style.material.opacity = 0.5;
+  renderer.shade(style);
+  EXPECT_GT(renderer.layersBehind().size(), 5u);
+  style.material.translucent = false;
+  renderer.shade(style);
+  EXPECT_TRUE(renderer.layersBehind().empty());
+  EXPECT_EQ(renderer.statistics().framesTraced, 1u);
+}
+
+TEST(SphereRenderer, NothingIsDoneWhenNothingHasChanged)
+{
+  SphereRenderer renderer;
+  renderer.setCloud(randomCloud(100));
+  Style style = directLight();
+  for (int i = 0; i < 3; ++i)
+  {
+    ASSERT_TRUE(renderer.trace(view(), Identity));
+    renderer.shade(style);
+  }
+  EXPECT_EQ(renderer.statistics().framesTraced, 1u);
+  EXPECT_EQ(renderer.statistics().framesShaded, 1u);
+  style.lights[0].color = { 1, 0, 0 };
+  renderer.shade(style);
+  EXPECT_EQ(renderer.statistics().framesShaded, 2u);
+  EXPECT_EQ(renderer.statistics().framesTraced, 1u);
+}
+
+TEST(SmoothEdges, PlacesAreSpreadEvenly)
+{
+  EXPECT_EQ(samplePlace(0).x, 0.5);
+  EXPECT_EQ(samplePlace(0).y, 0.5);
+  for (const int n : { 4, 16, 64 })
+  {
+    // Each half and each quarter of the pixel gets its share of the places, within one and a half.
+    int left = 0, corner = 0;
+    for (int i = 0; i < n; ++i)
+    {
+      left += samplePlace(i).x < 0.5;
+      corner += samplePlace(i).x < 0.5 && samplePlace(i).y < 0.5;
+    }
+    EXPECT_NEAR(left, n / 2.0, 1.5) << n;
+    EXPECT_NEAR(corner, n / 4.0, 1.5) << n;
+  }
+}
+
+TEST(SmoothEdges, AlphaIsTheShareOfThePixelThatADiscCovers)
+{
+  // A disc of radius 10 pixels around the middle of the window, in parallel projection.
+  SphereRenderer renderer;
+  renderer.setCloud(makeSphereCloud(
+    1,
+    [](std::size_t) {
+      return Vec3d{ 0, 0, 0 };
+    },
+    [](std::size_t) { return 10.0; }));
+  const Camera camera{ translation(0, 0, -50), parallel(-16, 16, -16, 16, 1, 100), 32, 32 };
+  ASSERT_TRUE(renderer.trace(camera, Identity));
+  Style style;
+  style.material.mode = ShadingMode::AmbientOcclusion; // without textures: white
+  const auto largestError = [&]
+  {
+    double largest = 0;
+    for (int pixel = 0; pixel < 32 * 32; ++pixel)
+    {
+      int inside = 0;
+      for (int i = 0; i < 64 * 64; ++i)
+      {
+        const double x = pixel % 32 + (i % 64 + 0.5) / 64 - 16;
+        const double y = double(pixel / 32) + (double(i / 64) + 0.5) / 64 - 16;
+        inside += x * x + y * y < 100;
+      }
+      const double alpha = renderer.rgba()[4 * std::size_t(pixel) + 3] / 255.0;
+      largest = std::max(largest, std::abs(alpha - inside / 4096.0));
+    }
+    return largest;
+  };
+  renderer.shade(style);
+  EXPECT_GT(largestError(), 0.4) << "one ray decides for the whole pixel";
+  renderer.refine(64);
+  EXPECT_EQ(renderer.samples(), 64);
+  EXPECT_LT(largestError(), 0.05);
+
+  const std::vector<std::uint8_t> atOnce = renderer.rgba();
+  style.material.diffuse = 0.9; // another style, so that it begins anew
+  renderer.shade(style);
+  EXPECT_EQ(renderer.samples(), 1);
+  style.material.diffuse = 1;
+  renderer.shade(style);
+  for (const int n : { 2, 3, 20, 64 })
+  {
+    renderer.refine(n);
+  }
+  EXPECT_EQ(renderer.rgba(), atOnce) << "step by step is the same as at once";
+  EXPECT_EQ(renderer.statistics().framesTraced, 1u);
+  EXPECT_EQ(renderer.frame().sampleX, 0.5) << "depth and ids stay those of the centres";
+}
+
+TEST(InteractiveResolution, FollowsTheTimeThatFramesTake)
+{
+  InteractiveResolution resolution;
+  EXPECT_EQ(resolution.reduction(1000, 1000, 15), 1) << "nothing is known yet";
+  for (int i = 0; i < 10; ++i)
+  {
+    resolution.measured(1000000, 0.59);
+  }
+  EXPECT_EQ(resolution.reduction(1000, 1000, 15), 3) << "nearly 9 times too slow";
+  EXPECT_EQ(resolution.reduction(500, 500, 15), 2);
+  EXPECT_EQ(resolution.reduction(1000, 1000, 1), 1);
+  EXPECT_EQ(resolution.reduction(1000, 1000, 0), 1);
+  for (int i = 0; i < 20; ++i)
+  {
+    resolution.measured(111111, 0.001);
+  }
+  EXPECT_EQ(resolution.reduction(1000, 1000, 15), 1) << "fast again";
+  for (int i = 0; i < 20; ++i)
+  {
+    resolution.measured(1000, 100);
+  }
+  EXPECT_EQ(resolution.reduction(1000, 1000, 15), InteractiveResolution::LargestReduction);
+}
+}
