@@ -99,7 +99,7 @@ std::vector<float> valuesOf(const po::SphereCloud& cloud, Method method)
 
 TEST(StressInvariance, TheOrderOfTheParticlesChangesNoBitsOfAnyId)
 {
-  // Random numbers belong to the id of a particle, not to its place.
+  // Random numbers belong to a sphere, not to its place.
   for (const char* name :
     { "cloud", "touching", "overlap 0.1 r", "two clouds, 1e6 radii apart", "coincident pairs" })
   {
@@ -133,20 +133,28 @@ TEST(StressInvariance, TheOrderOfTheParticlesChangesNoBitsOfAnyId)
   }
 }
 
-TEST(StressInvariance, TheOrderOfTheInputChangesNoBitsOfASweep)
+TEST(StressInvariance, TheOrderOfTheInputChangesNoBits)
 {
-  // Sweep has no random numbers of a particle; nor do sums over the input depend on its order.
-  const std::vector<Ball>& balls = sceneOf("cloud").balls;
-  const std::vector<std::size_t> order = shuffled(balls.size());
-  std::vector<Ball> other;
-  for (const std::size_t i : order)
+  // Random numbers belong to a sphere, not to its id; nor do sums over the input depend on its
+  // order.
+  for (const char* name : { "cloud", "overlap 0.1 r", "two clouds, 1e6 radii apart" })
   {
-    other.push_back(balls[i]);
+    const std::vector<Ball>& balls = sceneOf(name).balls;
+    const std::vector<std::size_t> order = shuffled(balls.size());
+    std::vector<Ball> other;
+    for (const std::size_t i : order)
+    {
+      other.push_back(balls[i]);
+    }
+    for (const Method method : Methods)
+    {
+      SCOPED_TRACE(std::string(name) + ", " + nameOf(method));
+      const Baked before = bake(balls, order, method, usualWork(method));
+      const Baked after = bake(other, everyBall(other), method, usualWork(method));
+      EXPECT_EQ(after.values, before.values);
+      EXPECT_EQ(after.shares, before.shares);
+    }
   }
-  const Baked before = bake(balls, order, Method::Sweep, 144);
-  const Baked after = bake(other, everyBall(other), Method::Sweep, 144);
-  EXPECT_EQ(after.values, before.values);
-  EXPECT_EQ(after.shares, before.shares);
 }
 
 TEST(StressInvariance, ASphereOutOfReachChangesLessThanRounding)
