@@ -185,6 +185,7 @@ void readSpheres(const std::vector<vtkPolyData*>& blocks, const RadiusSettings& 
     input.warnings.push_back(PortName + describe(rejected));
   }
   input.occluders.spheres = std::move(cloud->spheres);
+  input.occluders.centers = std::move(cloud->centers);
 }
 }
 

@@ -143,13 +143,15 @@ po::BakeTask vtkSphereAmbientOcclusion::Internals::MakeTask(vtkSphereAmbientOccl
     ? static_cast<float>(settings.maximumDistance / own.scale)
     : std::numeric_limits<float>::infinity();
   const po::Neighbourhood neighbourhood(own.spheres, reach, group);
-  po::SharedSpheres shared = po::shareSpheres(own.spheres, own.ghosts, neighbourhood, group);
+  po::SharedSpheres shared =
+    po::shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
   particles.Places = std::move(shared.places);
 
   po::BakeTask task;
   task.cloud.origin = own.origin;
   task.cloud.scale = own.scale;
   task.cloud.spheres = std::move(shared.spheres);
+  task.cloud.centers = std::move(shared.centers);
   task.receivers = po::distinct(particles.Places);
   task.occluders = po::shareOccluders(std::move(occluders), neighbourhood, group);
   task.settings = settings;

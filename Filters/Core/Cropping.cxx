@@ -31,7 +31,7 @@ std::vector<std::uint8_t> hideSpheres(const SphereCloud& cloud, const Cropping& 
     {
       for (std::size_t i = range.begin(); i < range.end(); ++i)
       {
-        const Vec3d center = cloud.toWorld(cloud.spheres[i].center().as<double>());
+        const Vec3d center = cloud.toWorld(cloud.center(i));
         hidden[i] = keeps(cropping, center, cloud.sourceIds[i]) ? 0 : 1;
       }
     });

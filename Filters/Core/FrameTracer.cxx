@@ -25,11 +25,12 @@ struct Box
   Vec3d low, high;
 };
 
-/// Where the sphere points lie, a little enlarged so that rounding cannot cut anything off.
-Box boundsOf(const SphereScene& scene)
+/// Where a brick's spheres lie relative to its origin, a little enlarged so that rounding cannot
+/// cut anything off.
+Box boundsOf(const SphereScene& scene, std::size_t brick)
 {
   RTCBounds b;
-  rtcGetSceneBounds(scene.handle(), &b);
+  rtcGetSceneBounds(scene.handle(brick), &b);
   const Vec3d low{ b.lower_x, b.lower_y, b.lower_z };
   const Vec3d high{ b.upper_x, b.upper_y, b.upper_z };
   const double margin = 1e-5 * length(high - low);
@@ -69,35 +70,40 @@ void clear(TracedFrame& frame, const PixelRange& range)
   }
 }
 
-class Tracer
+/// Traces one brick of a scene. All its work is relative to the brick's origin, which moves the
+/// origins of rays and leaves lengths as they are. The first brick's tracer writes every pixel;
+/// those of others, which follow it in each tile, write where they find something nearer.
+class BrickTracer
 {
 public:
-  Tracer(const SphereScene& scene, const PrimaryRays& rays, const FrameSettings& settings,
-    TracedFrame& frame)
+  BrickTracer(const SphereScene& scene, std::size_t brick, const PrimaryRays& rays,
+    const FrameSettings& settings, TracedFrame& frame)
     : scene_(scene)
+    , number_(brick)
+    , brick_(scene.set().bricks()[brick])
     , rays_(rays)
+    , functions_(rays.functions())
     , settings_(settings)
     , frame_(frame)
   {
-    const Box box = boundsOf(scene);
-    seen_ = rays.pixelsOfBox(box.low, box.high);
-    start_ = rays.startOfBox(box.low, box.high);
-    isCut_ = rays.isCutByNearPlane(box.low, box.high);
+    functions_.localOrigin.base = functions_.localOrigin.base - brick_.origin;
+    const Box box = boundsOf(scene, brick);
+    const Vec3d low = brick_.origin + box.low, high = brick_.origin + box.high;
+    seen_ = rays.pixelsOfBox(low, high);
+    start_ = rays.startOfBox(low, high);
+    isCut_ = rays.isCutByNearPlane(low, high);
   }
 
-  [[nodiscard]] PixelRange tile(int column, int row) const
+  [[nodiscard]] bool maySee(const PixelRange& tile) const
   {
-    return intersect({ 0, 0, frame_.width, frame_.height },
-      { column * TileSize, row * TileSize, (column + 1) * TileSize, (row + 1) * TileSize });
+    return !intersect(tile, seen_).empty();
   }
 
   void traceTile(const PixelRange& tile, TraceCounters& counters) const
   {
-    ++counters.tiles;
-    if (intersect(tile, seen_).empty())
+    if (!maySee(tile))
     {
-      ++counters.tilesSkipped;
-      clear(frame_, tile);
+      clearFirst(tile);
       return;
     }
     for (int y = tile.y0; y < tile.y1; y += PacketSide)
@@ -105,38 +111,48 @@ public:
       for (int x = tile.x0; x < tile.x1; x += PacketSide)
       {
         const PixelRange packet = intersect(tile, { x, y, x + PacketSide, y + PacketSide });
-        intersect(packet, seen_).empty() ? clear(frame_, packet) : tracePacket(packet, counters);
+        maySee(packet) ? tracePacket(packet, counters) : clearFirst(packet);
       }
     }
-    frame_.tiles[static_cast<std::size_t>(tile.y0 / TileSize) * depthTiles(frame_.width) +
-      tile.x0 / TileSize] = rangeOf(tile);
   }
 
   /// What is behind the front that a pixel shows.
   void traceBehind(int x, int y, const TracedFrame& inFront, TraceCounters& counters) const
   {
     const std::size_t pixel = pixelOf(x, y);
-    PrimaryRay ray = rays_.at(x + settings_.sampleX, y + settings_.sampleY);
+    PrimaryRay ray = rayAt(x, y);
     const double s = inFront.t[pixel] / ray.worldPerLocal;
     const double radius = scene_.spheres()[inFront.sphere[pixel]].radius;
     // Beyond the rounding of t, so that the same front is not met again.
     ray.nearest = std::max(ray.nearest, s + 1e-12 * std::max(std::abs(s), radius));
-    store(pixel, ray, findFront(scene_, settings_.hidden, ray, std::max(start_, s), counters.rays),
-      counters);
+    store(pixel, ray, find(ray, std::max(start_, s), counters), counters);
   }
 
 private:
-  [[nodiscard]] DepthRange rangeOf(const PixelRange& tile) const
+  void clearFirst(const PixelRange& range) const
   {
-    DepthRange range;
-    for (int y = tile.y0; y < tile.y1; ++y)
+    if (number_ == 0)
     {
-      for (int x = tile.x0; x < tile.x1; ++x)
-      {
-        range.add(frame_.t[pixelOf(x, y)]);
-      }
+      clear(frame_, range);
     }
-    return range;
+  }
+
+  /// Is what the pixel has nearer than t, from a brick before this one?
+  [[nodiscard]] bool isBehind(std::size_t pixel, double t) const
+  {
+    return number_ != 0 && !(t < frame_.t[pixel]);
+  }
+
+  [[nodiscard]] PrimaryRay rayAt(int x, int y) const
+  {
+    PrimaryRay ray = rays_.at(x + settings_.sampleX, y + settings_.sampleY);
+    ray.origin = ray.origin - brick_.origin;
+    return ray;
+  }
+
+  [[nodiscard]] Front find(const PrimaryRay& ray, double start, TraceCounters& counters) const
+  {
+    return findFront(scene_, number_, settings_.hidden, ray, start, counters.rays);
   }
 
   [[nodiscard]] std::size_t pixelOf(int x, int y) const
@@ -149,8 +165,8 @@ private:
   {
     PrimaryPacket packet;
     alignas(64) RTCRayHit16 query;
-    makeRays(rays_.functions(), range.x0, range.y0, settings_.sampleX, settings_.sampleY, start_,
-      isCut_, packet, query);
+    makeRays(functions_, range.x0, range.y0, settings_.sampleX, settings_.sampleY, start_, isCut_,
+      packet, query);
     alignas(64) int valid[PrimaryPacket::Size];
     for (int lane = 0; lane < static_cast<int>(PrimaryPacket::Size); ++lane)
     {
@@ -161,12 +177,12 @@ private:
     FrontQuery context;
     initRayQueryContext(context.embree, true);
     context.hidden = settings_.hidden;
-    context.spheres = scene_.spheres().data();
+    context.brick = &brick_;
     context.ray = nullptr;
-    intersect16(
-      valid, scene_.handle(), context.embree, query, settings_.hidden ? passSpheres : nullptr);
+    intersect16(valid, scene_.handle(number_), context.embree, query,
+      settings_.hidden ? passSpheres : nullptr);
     loadCandidates(query, packet);
-    meetFronts(rays_.functions(), range.x0, range.y0, settings_.sampleX, settings_.sampleY, packet);
+    meetFronts(functions_, range.x0, range.y0, settings_.sampleX, settings_.sampleY, packet);
     storePacket(range, query, packet, counters);
   }
 
@@ -175,7 +191,7 @@ private:
     for (std::size_t lane = 0; lane < PrimaryPacket::Size; ++lane)
     {
       const bool hit = query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
-      const Sphere sphere = scene_.spheres()[hit ? query.hit.primID[lane] : 0];
+      const Sphere sphere = brick_.spheres[hit ? query.hit.primID[lane] : 0];
       packet.sphere[0][lane] = sphere.x;
       packet.sphere[1][lane] = sphere.y;
       packet.sphere[2][lane] = sphere.z;
@@ -209,23 +225,37 @@ private:
     const double s = packet.s[lane];
     const bool sure =
       packet.isFront[lane] > 0 && !isDoubtful(s - packet.start[lane], packet.sphere[3][lane]);
-    const double worldPerLocal = rays_.functions().worldPerLocal;
+    const double worldPerLocal = functions_.worldPerLocal;
     if (!sure || worldPerLocal == 0)
     {
-      const PrimaryRay ray = rays_.at(x + settings_.sampleX, y + settings_.sampleY);
-      store(pixel, ray, findFront(scene_, settings_.hidden, ray, packet.start[lane], counters.rays),
-        counters);
+      const PrimaryRay ray = rayAt(x, y);
+      store(pixel, ray, find(ray, packet.start[lane], counters), counters);
       return;
     }
-    ++counters.hits;
-    frame_.t[pixel] = s * worldPerLocal;
-    frame_.sphere[pixel] = query.hit.primID[lane];
+    const double t = s * worldPerLocal;
+    if (isBehind(pixel, t))
+    {
+      return;
+    }
+    countHit(pixel, counters);
+    frame_.t[pixel] = t;
+    frame_.sphere[pixel] = brick_.id(query.hit.primID[lane]);
     frame_.normal[pixel] = { packet.normalX[lane], packet.normalY[lane], packet.normalZ[lane] };
     frame_.windowDepth[pixel] = packet.windowDepth[lane];
   }
 
+  /// Once a pixel, whichever bricks it shows.
+  void countHit(std::size_t pixel, TraceCounters& counters) const
+  {
+    counters.hits += number_ == 0 || frame_.sphere[pixel] == SphereScene::None;
+  }
+
   void storeNothing(std::size_t pixel) const
   {
+    if (number_ != 0)
+    {
+      return; // others may have found something
+    }
     frame_.t[pixel] = Infinity;
     frame_.sphere[pixel] = SphereScene::None;
     frame_.normal[pixel] = {};
@@ -240,15 +270,23 @@ private:
       storeNothing(pixel);
       return;
     }
-    ++counters.hits;
-    frame_.t[pixel] = front.s * ray.worldPerLocal;
+    const double t = front.s * ray.worldPerLocal;
+    if (isBehind(pixel, t))
+    {
+      return;
+    }
+    countHit(pixel, counters);
+    frame_.t[pixel] = t;
     frame_.sphere[pixel] = front.sphere;
     frame_.normal[pixel] = front.normal.as<float>();
     frame_.windowDepth[pixel] = static_cast<float>(std::clamp(ray.windowDepth(front.s), 0.0, 1.0));
   }
 
   const SphereScene& scene_;
+  std::size_t number_;
+  const Brick& brick_;
   const PrimaryRays& rays_;
+  PrimaryRayFunctions functions_; ///< relative to the brick
   const FrameSettings& settings_;
   TracedFrame& frame_;
   PixelRange seen_; ///< nothing is to be seen outside
@@ -256,9 +294,49 @@ private:
   bool isCut_;      ///< the near plane may be behind some fronts
 };
 
+std::vector<BrickTracer> tracersOf(const SphereScene& scene, const PrimaryRays& rays,
+  const FrameSettings& settings, TracedFrame& frame)
+{
+  std::vector<BrickTracer> tracers;
+  for (std::size_t brick = 0; brick < scene.set().bricks().size(); ++brick)
+  {
+    tracers.emplace_back(scene, brick, rays, settings, frame);
+  }
+  return tracers;
+}
+
+DepthRange rangeOf(const TracedFrame& frame, const PixelRange& tile)
+{
+  DepthRange range;
+  for (int y = tile.y0; y < tile.y1; ++y)
+  {
+    const double* t = frame.t.data() + static_cast<std::ptrdiff_t>(y) * frame.width;
+    std::for_each(t + tile.x0, t + tile.x1, [&range](double depth) { range.add(depth); });
+  }
+  return range;
+}
+
+void traceTile(const std::vector<BrickTracer>& tracers, const PixelRange& tile, TracedFrame& frame,
+  TraceCounters& counters)
+{
+  bool seen = false;
+  for (const BrickTracer& tracer : tracers)
+  {
+    seen |= tracer.maySee(tile);
+    tracer.traceTile(tile, counters);
+  }
+  if (seen)
+  {
+    frame.tiles[static_cast<std::size_t>(tile.y0 / TileSize) * depthTiles(frame.width) +
+      tile.x0 / TileSize] = rangeOf(frame, tile);
+  }
+  ++counters.tiles;
+  counters.tilesSkipped += !seen;
+}
+
 /// Calls f(tile, counters) for all tiles in parallel and adds up the counters.
 template <typename Function>
-TraceCounters forEachTile(const TracedFrame& frame, const Tracer& tracer, const Function& f)
+TraceCounters forEachTile(const TracedFrame& frame, const Function& f)
 {
   const int columns = depthTiles(frame.width);
   const int rows = depthTiles(frame.height);
@@ -269,7 +347,9 @@ TraceCounters forEachTile(const TracedFrame& frame, const Tracer& tracer, const 
       TraceCounters& mine = counters.local();
       for (int tile = tiles.begin(); tile < tiles.end(); ++tile)
       {
-        f(tracer.tile(tile % columns, tile / columns), mine);
+        const int x = tile % columns * TileSize, y = tile / columns * TileSize;
+        f(intersect({ 0, 0, frame.width, frame.height }, { x, y, x + TileSize, y + TileSize }),
+          mine);
       }
     });
   TraceCounters total;
@@ -293,9 +373,10 @@ TraceCounters traceFrame(const SphereScene& scene, const PrimaryRays& rays,
     clear(frame, { 0, 0, frame.width, frame.height });
     return {};
   }
-  const Tracer tracer(scene, rays, settings, frame);
-  return forEachTile(frame, tracer,
-    [&](const PixelRange& tile, TraceCounters& counters) { tracer.traceTile(tile, counters); });
+  const std::vector<BrickTracer> tracers = tracersOf(scene, rays, settings, frame);
+  return forEachTile(frame,
+    [&](const PixelRange& tile, TraceCounters& counters)
+    { traceTile(tracers, tile, frame, counters); });
 }
 
 TraceCounters traceBehind(const SphereScene& scene, const PrimaryRays& rays,
@@ -303,8 +384,8 @@ TraceCounters traceBehind(const SphereScene& scene, const PrimaryRays& rays,
   const std::vector<std::uint8_t>& wanted, TracedFrame& frame)
 {
   prepare(frame, rays, settings);
-  const Tracer tracer(scene, rays, settings, frame);
-  return forEachTile(frame, tracer,
+  const std::vector<BrickTracer> tracers = tracersOf(scene, rays, settings, frame);
+  return forEachTile(frame,
     [&](const PixelRange& tile, TraceCounters& counters)
     {
       ++counters.tiles;
@@ -318,7 +399,10 @@ TraceCounters traceBehind(const SphereScene& scene, const PrimaryRays& rays,
             static_cast<std::size_t>(x);
           if (wanted[pixel] != 0 && inFront.sphere[pixel] != SphereScene::None)
           {
-            tracer.traceBehind(x, y, inFront, counters);
+            for (const BrickTracer& tracer : tracers)
+            {
+              tracer.traceBehind(x, y, inFront, counters);
+            }
           }
         }
       }

@@ -33,22 +33,23 @@ RTCRayHit makeQuery(const PrimaryRay& ray, double start)
   return query;
 }
 
-Front findFrom(const SphereScene& scene, const std::uint8_t* hidden, const PrimaryRay& ray,
-  double start, std::size_t& rays)
+Front findFrom(const SphereScene& scene, std::size_t brick, const std::uint8_t* hidden,
+  const PrimaryRay& ray, double start, std::size_t& rays)
 {
   ++rays;
   FrontQuery query;
   initRayQueryContext(query.embree, false);
   query.hidden = hidden;
-  query.spheres = scene.spheres().data();
+  query.brick = &scene.set().bricks()[brick];
   query.ray = &ray;
   RTCRayHit hit = makeQuery(ray, start);
-  intersect1(scene.handle(), query.embree, hit, passSpheres);
+  intersect1(scene.handle(brick), query.embree, hit, passSpheres);
   Front front;
   if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID)
   {
     // The filter has let it pass, so this succeeds.
-    (void)intersectExactly(ray, scene.spheres()[hit.hit.primID], hit.hit.primID, front);
+    const unsigned place = hit.hit.primID;
+    (void)intersectExactly(ray, query.brick->spheres[place], query.brick->id(place), front);
   }
   return front;
 }
@@ -63,10 +64,12 @@ void passSpheres(const RTCFilterFunctionNArguments* arguments)
     {
       continue;
     }
-    const unsigned id = RTCHitN_primID(arguments->hit, arguments->N, i);
+    const unsigned place = RTCHitN_primID(arguments->hit, arguments->N, i);
+    const unsigned id = query->brick->id(place);
     Front front;
     const bool hidden = query->hidden && query->hidden[id] != 0;
-    if (hidden || (query->ray && !intersectExactly(*query->ray, query->spheres[id], id, front)))
+    if (hidden ||
+      (query->ray && !intersectExactly(*query->ray, query->brick->spheres[place], id, front)))
     {
       arguments->valid[i] = 0;
     }
@@ -99,10 +102,10 @@ bool isDoubtful(double way, double radius)
   return way > ReliableRadii * radius;
 }
 
-Front findFront(const SphereScene& scene, const std::uint8_t* hidden, const PrimaryRay& ray,
-  double start, std::size_t& rays)
+Front findFront(const SphereScene& scene, std::size_t brick, const std::uint8_t* hidden,
+  const PrimaryRay& ray, double start, std::size_t& rays)
 {
-  const Front front = findFrom(scene, hidden, ray, start, rays);
+  const Front front = findFrom(scene, brick, hidden, ray, start, rays);
   if (front.sphere == SphereScene::None)
   {
     return front;
@@ -115,7 +118,7 @@ Front findFront(const SphereScene& scene, const std::uint8_t* hidden, const Prim
   }
   // Once more from close by, where floats can tell neighbours apart.
   const double closeBy = std::max(start, front.s - std::max(4 * radius, 1e-5 * way));
-  const Front closer = findFrom(scene, hidden, ray, closeBy, rays);
+  const Front closer = findFrom(scene, brick, hidden, ray, closeBy, rays);
   return closer.sphere == SphereScene::None ? front : closer;
 }
 }

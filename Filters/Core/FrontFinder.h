@@ -24,8 +24,9 @@ struct FrontQuery
 {
   RayQueryContext embree;     ///< first, so that the filter can cast back
   const std::uint8_t* hidden; ///< of each sphere: not 0 if rays pass it; null: they pass none
-  const Sphere* spheres;
-  const PrimaryRay* ray; ///< only fronts between its nearest and farthest count; null: any hit
+  const Brick* brick;         ///< whose scene is traced
+  /// Relative to the brick; only fronts between its nearest and farthest count; null: any hit.
+  const PrimaryRay* ray;
 };
 
 /// For Embree: rejects what the query's rays pass.
@@ -37,14 +38,16 @@ void passSpheres(const RTCFilterFunctionNArguments* arguments);
 [[nodiscard]] bool intersectExactly(
   const PrimaryRay& ray, const Sphere& sphere, std::uint32_t id, Front& front);
 
-/// The first front on the ray from s = start on, one ray at a time. Fronts before the ray's nearest
-/// point are passed, and so are hidden spheres.
+/// The first front in one brick on the ray from s = start on, one ray at a time. Fronts before the
+/// ray's nearest point are passed, and so are hidden spheres.
 ///
 /// Embree looks in single precision; far from the start it may confuse neighbours. Then it looks
 /// once more from close by.
+/// @param brick its number in the scene's set
+/// @param ray relative to the brick's origin
 /// @param rays is increased by the number of Embree's rays
-[[nodiscard]] Front findFront(const SphereScene& scene, const std::uint8_t* hidden,
-  const PrimaryRay& ray, double start, std::size_t& rays);
+[[nodiscard]] Front findFront(const SphereScene& scene, std::size_t brick,
+  const std::uint8_t* hidden, const PrimaryRay& ray, double start, std::size_t& rays);
 
 /// May Embree's choice of this front from that start be wrong?
 [[nodiscard]] bool isDoubtful(double way, double radius);

@@ -21,6 +21,7 @@ struct Occluders
 {
   std::vector<Sphere> spheres;
   OccluderMesh mesh;
+  std::vector<Vec3d> centers = {}; ///< of the spheres, in full, as in SphereCloud; or empty
 };
 }
 

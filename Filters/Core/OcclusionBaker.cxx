@@ -109,13 +109,39 @@ private:
   std::vector<float> texture_;
 };
 
-std::vector<Sphere> joined(const std::vector<Sphere>& first, const std::vector<Sphere>& second)
+template <typename Element>
+std::vector<Element> joined(const std::vector<Element>& first, const std::vector<Element>& second)
 {
-  std::vector<Sphere> all;
+  std::vector<Element> all;
   all.reserve(first.size() + second.size());
   all.insert(all.end(), first.begin(), first.end());
   all.insert(all.end(), second.begin(), second.end());
   return all;
+}
+
+/// Centres in full, if there are none those of the floats.
+std::vector<Vec3d> fullCenters(
+  const std::vector<Sphere>& spheres, const std::vector<Vec3d>& centers)
+{
+  std::vector<Vec3d> all = centers;
+  for (std::size_t i = all.size(); i < spheres.size(); ++i)
+  {
+    all.push_back(spheres[i].center().as<double>());
+  }
+  return all;
+}
+
+/// The particles, then the occluders.
+SphereSet joined(const SphereCloud& cloud, const Occluders& occluders)
+{
+  std::vector<Sphere> spheres = joined(cloud.spheres, occluders.spheres);
+  if (cloud.centers.empty() && occluders.centers.empty())
+  {
+    return SphereSet(std::move(spheres));
+  }
+  return SphereSet(std::move(spheres),
+    joined(fullCenters(cloud.spheres, cloud.centers),
+      fullCenters(occluders.spheres, occluders.centers)));
 }
 
 /// Two hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
@@ -125,8 +151,8 @@ constexpr double BytesPerSphere = 300;
 BakeScene::BakeScene(
   const SphereCloud& sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
   : cloud(sphereCloud)
-  , rays(joined(sphereCloud.spheres, occluders.spheres), occluders.mesh)
-  , overlaps(rays.spheres())
+  , rays(joined(sphereCloud, occluders), occluders.mesh)
+  , overlaps(rays.set())
   , group(processes)
 {
 }

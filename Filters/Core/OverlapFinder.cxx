@@ -31,21 +31,34 @@ void sphereBounds(const RTCBoundsFunctionArguments* arguments)
   box.upper_z = outward(s.z, +s.radius);
 }
 
+/// What Embree calls back with: the place of a box in a brick stands for a sphere of the set.
 struct Query
 {
-  const Sphere* spheres;
+  const SphereSet* spheres;
   unsigned id;
+  const Brick* brick; ///< that is being searched
+
+  [[nodiscard]] unsigned found(const RTCPointQueryFunctionArguments* arguments) const
+  {
+    return brick->id(arguments->primID);
+  }
+  [[nodiscard]] Vec3d offsetTo(unsigned other) const
+  {
+    return spheres->center(other) - spheres->center(id);
+  }
+};
+
+struct OverlapQuery : Query
+{
   Overlaps* result;
   bool outOfMemory; ///< Embree would swallow the exception, and overlaps would be missing
 };
 
-/// How sphere `other` cuts the surface of `self`. With d from self to other, a surface point c + r
-/// n is inside when |r n - d|^2 < R^2, that is n . d > (|d|^2 + r^2 - R^2) / 2 r.
-void addOverlap(const Sphere& self, const Sphere& other, Overlaps& result)
+/// How a sphere of radius `radius`, at `d` from one of radius r, cuts the surface of that one. A
+/// surface point c + r n is inside when |r n - d|^2 < R^2, that is n . d > (|d|^2 + r^2 - R^2) /
+/// 2 r.
+void addOverlap(double r, Vec3d d, double radius, Overlaps& result)
 {
-  const Vec3d d = other.center().as<double>() - self.center().as<double>();
-  const double r = self.radius;
-  const double radius = other.radius;
   const double distance = length(d);
   // r - R and r + R are taken first: a difference of squares would cancel.
   const double excess = (r - radius) * (r + radius);
@@ -67,12 +80,15 @@ void addOverlap(const Sphere& self, const Sphere& other, Overlaps& result)
 
 bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
 {
-  auto* query = static_cast<Query*>(arguments->userPtr);
-  if (arguments->primID != query->id)
+  auto* query = static_cast<OverlapQuery*>(arguments->userPtr);
+  const unsigned other = query->found(arguments);
+  if (other != query->id)
   {
+    const std::vector<Sphere>& spheres = query->spheres->spheres();
     try
     {
-      addOverlap(query->spheres[query->id], query->spheres[arguments->primID], *query->result);
+      addOverlap(
+        spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
     }
     catch (const std::bad_alloc&)
     {
@@ -82,27 +98,15 @@ bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
   return false; // the radius of the query did not change
 }
 
-float gapBetween(const Sphere& a, const Sphere& b)
+float gapTo(const Query& query, unsigned other)
 {
-  return length(b.center() - a.center()) - a.radius - b.radius;
+  const std::vector<Sphere>& spheres = query.spheres->spheres();
+  return length(query.offsetTo(other).as<float>()) - spheres[query.id].radius -
+    spheres[other].radius;
 }
 
-/// Rounding must not lose a box that just comes within the radius.
-RTCPointQuery queryAround(const Sphere& sphere, float radius)
+struct NearQuery : Query
 {
-  RTCPointQuery point;
-  point.x = sphere.x;
-  point.y = sphere.y;
-  point.z = sphere.z;
-  point.time = 0;
-  point.radius = radius * (1 + 4 * std::numeric_limits<float>::epsilon());
-  return point;
-}
-
-struct NearQuery
-{
-  const Sphere* spheres;
-  unsigned id;
   float reach;
   std::size_t limit;
   std::vector<Neighbour>* nearest; ///< a heap, the farthest on top
@@ -112,9 +116,8 @@ struct NearQuery
 bool visitNear(RTCPointQueryFunctionArguments* arguments)
 {
   const auto* query = static_cast<const NearQuery*>(arguments->userPtr);
-  const Sphere& self = query->spheres[query->id];
-  const Sphere& other = query->spheres[arguments->primID];
-  const Neighbour found{ arguments->primID, gapBetween(self, other) };
+  const unsigned other = query->found(arguments);
+  const Neighbour found{ other, gapTo(*query, other) };
   std::vector<Neighbour>& nearest = *query->nearest;
   const bool full = nearest.size() == query->limit;
   if (found.id == query->id || found.gap > query->reach || (full && !(found < nearest.front())))
@@ -131,55 +134,97 @@ bool visitNear(RTCPointQueryFunctionArguments* arguments)
   return false;
 }
 
-struct AnyQuery
+struct AnyQuery : Query
 {
-  const Sphere* spheres;
-  unsigned id;
   float reach;
-  bool found;
+  bool isFound;
 };
 
 bool visitAny(RTCPointQueryFunctionArguments* arguments)
 {
   auto* query = static_cast<AnyQuery*>(arguments->userPtr);
-  if (query->found || arguments->primID == query->id ||
-    gapBetween(query->spheres[query->id], query->spheres[arguments->primID]) > query->reach)
+  const unsigned other = query->found(arguments);
+  if (query->isFound || other == query->id || gapTo(*query, other) > query->reach)
   {
     return false;
   }
-  query->found = true;
+  query->isFound = true;
   arguments->query->radius = 0; // there is nothing more to look for
   return true;
 }
+
+/// Is the point within `reach` of what the brick holds? Rounding may make it so, never prevent it.
+bool isWithin(const Brick& brick, Vec3d point, double reach)
+{
+  const double wide = reach * (1 + 1e-6) + 1e-12 * length(brick.high - brick.low);
+  return point.x >= brick.low.x - wide && point.x <= brick.high.x + wide &&
+    point.y >= brick.low.y - wide && point.y <= brick.high.y + wide &&
+    point.z >= brick.low.z - wide && point.z <= brick.high.z + wide;
+}
 }
 
-OverlapFinder::OverlapFinder(const std::vector<Sphere>& spheres)
+OverlapFinder::OverlapFinder(const SphereSet& spheres)
   : spheres_(&spheres)
   , device_(makeDevice(spheres.size()))
-  , scene_(makeScene(device_.get()))
 {
+  for (const Brick& brick : spheres.bricks())
+  {
+    addBoxes(brick);
+  }
+  throwOnError(device_.get(), "building the search structure for overlaps");
+}
+
+void OverlapFinder::addBoxes(const Brick& brick)
+{
+  scenes_.push_back(makeScene(device_.get()));
   const GeometryHandle geometry =
     makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER, "EMBREE_GEOMETRY_USER");
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(spheres.size()));
-  rtcSetGeometryUserData(geometry.get(), const_cast<Sphere*>(spheres.data()));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(brick.count));
+  rtcSetGeometryUserData(geometry.get(), const_cast<Sphere*>(brick.spheres));
   rtcSetGeometryBoundsFunction(
     geometry.get(), [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
   rtcCommitGeometry(geometry.get());
-  rtcAttachGeometry(scene_.get(), geometry.get());
-  rtcCommitScene(scene_.get());
-  throwOnError(device_.get(), "building the search structure for overlaps");
+  rtcAttachGeometry(scenes_.back().get(), geometry.get());
+  rtcCommitScene(scenes_.back().get());
+}
+
+/// Calls visit for all spheres whose box comes within `radius` of the centre of sphere `id`.
+template <typename Specific>
+void OverlapFinder::search(
+  unsigned id, float radius, RTCPointQueryFunction visit, Specific& query) const
+{
+  query.spheres = spheres_;
+  query.id = id;
+  const Vec3d center = spheres_->center(id);
+  for (std::size_t i = 0; i < scenes_.size(); ++i)
+  {
+    const Brick& brick = spheres_->bricks()[i];
+    query.brick = &brick;
+    if (scenes_.size() > 1 && !isWithin(brick, center, radius))
+    {
+      continue;
+    }
+    const Vec3f place = (center - brick.origin).as<float>();
+    // Rounding must not lose a box that just comes within the radius.
+    const float size = radius + std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
+    RTCPointQuery point;
+    point.x = place.x;
+    point.y = place.y;
+    point.z = place.z;
+    point.time = 0;
+    point.radius = radius + 4 * std::numeric_limits<float>::epsilon() * size;
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scenes_[i].get(), &point, &context, visit, &query);
+  }
 }
 
 void OverlapFinder::find(unsigned id, Overlaps& result) const
 {
   result.buried = false;
   result.caps.clear();
-  const Sphere& self = (*spheres_)[id];
-  Query query{ spheres_->data(), id, &result, false };
-  RTCPointQuery point = queryAround(self, self.radius);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene_.get(), &point, &context, visitNeighbour, &query);
+  OverlapQuery query{ {}, &result, false };
+  search(id, spheres_->spheres()[id].radius, visitNeighbour, query);
   if (query.outOfMemory)
   {
     throw std::bad_alloc();
@@ -191,23 +236,15 @@ void OverlapFinder::findNear(
 {
   result.clear();
   result.reserve(std::min(limit, spheres_->size())); // so that visitNear allocates nothing
-  const Sphere& self = (*spheres_)[id];
-  NearQuery query{ spheres_->data(), id, reach, limit, &result };
-  RTCPointQuery point = queryAround(self, self.radius + reach);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene_.get(), &point, &context, visitNear, &query);
+  NearQuery query{ {}, reach, limit, &result };
+  search(id, spheres_->spheres()[id].radius + reach, visitNear, query);
   std::sort_heap(result.begin(), result.end());
 }
 
 bool OverlapFinder::hasNear(unsigned id, float reach) const
 {
-  const Sphere& self = (*spheres_)[id];
-  AnyQuery query{ spheres_->data(), id, reach, false };
-  RTCPointQuery point = queryAround(self, self.radius + reach);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene_.get(), &point, &context, visitAny, &query);
-  return query.found;
+  AnyQuery query{ {}, reach, false };
+  search(id, spheres_->spheres()[id].radius + reach, visitAny, query);
+  return query.isFound;
 }
 }

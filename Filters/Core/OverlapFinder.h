@@ -3,7 +3,7 @@
 #define po_OverlapFinder_h
 
 #include "Embree.h"
-#include "Sphere.h"
+#include "SphereSet.h"
 
 #include <cstddef>
 #include <vector>
@@ -45,7 +45,7 @@ struct Neighbour
 class OverlapFinder
 {
 public:
-  explicit OverlapFinder(const std::vector<Sphere>& spheres);
+  explicit OverlapFinder(const SphereSet& spheres);
 
   /// The overlaps of sphere `id`. `result` is passed in to keep its memory.
   /// A sphere that coincides with this one (same centre and radius) buries nothing: both surfaces
@@ -60,9 +60,13 @@ public:
   [[nodiscard]] bool hasNear(unsigned id, float reach) const;
 
 private:
-  const std::vector<Sphere>* spheres_;
+  void addBoxes(const Brick& brick);
+  template <typename Specific>
+  void search(unsigned id, float radius, RTCPointQueryFunction visit, Specific& query) const;
+
+  const SphereSet* spheres_;
   DeviceHandle device_;
-  SceneHandle scene_;
+  std::vector<SceneHandle> scenes_; ///< by brick
 };
 }
 

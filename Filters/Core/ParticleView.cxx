@@ -155,18 +155,21 @@ ParticleView::ParticleView(const BakeScene& scene, float distance, RayShare shar
 void ParticleView::begin(unsigned id)
 {
   id_ = id;
-  self_ = scene_.rays.spheres()[id];
+  const SphereSet& set = scene_.rays.set();
+  self_ = set.inBrick(id);
   reach_ = distance_ / self_.radius;
   const float near = std::min(NearReach, reach_);
   scene_.overlaps.findNear(id, near * self_.radius, NearLimit, found_);
   near_.clear();
   for (const Neighbour& neighbour : found_)
   {
-    const Sphere& other = scene_.rays.spheres()[neighbour.id];
-    near_.add((1 / self_.radius) * (other.center() - self_.center()), other.radius / self_.radius);
+    const Vec3f offset = (set.center(neighbour.id) - set.center(id)).as<float>();
+    const float radius = set.spheres()[neighbour.id].radius;
+    near_.add((1 / self_.radius) * offset, radius / self_.radius);
   }
   const bool full = found_.size() == NearLimit;
-  const bool nearMesh = scene_.rays.isMeshWithin(self_.center(), (1 + near) * self_.radius);
+  const bool nearMesh =
+    scene_.rays.isMeshWithin(set.spheres()[id].center(), (1 + near) * self_.radius);
   needsRays_ = full || nearMesh || near < reach_;
   const bool crowded = full && found_.back().gap < CloseReach * self_.radius;
   shareHere_ = nearMesh || crowded ? RayShare::One : share_;

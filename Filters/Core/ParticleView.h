@@ -53,7 +53,7 @@ private:
   const BakeScene& scene_;
   float distance_; ///< local, infinite where unbounded
   unsigned id_ = 0;
-  Sphere self_{};
+  Sphere self_{};         ///< relative to its brick
   float reach_ = 0;       ///< of light, in radii of the particle
   bool needsRays_ = true; ///< something may be in the way that is not among the near spheres
   RayShare share_;        ///< where nothing asks for more rays

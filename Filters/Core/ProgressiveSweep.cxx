@@ -104,7 +104,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   const BakeSettings& settings, const SweepSkips& skips, Watch watch)
   : settings_(settings)
   , particles_(std::move(particles))
-  , order_(scene.rays.spheres())
+  , order_(scene.rays.set())
   , texels_(settings.textureResolution)
   , watched_(watchedSpheres(order_, particles_, settings.seed, watch))
   , alone_(aloneFlags(scene, order_, skips.lonely ? localDistance(scene, settings) : Unbounded))

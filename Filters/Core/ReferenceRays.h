@@ -18,7 +18,7 @@ class TexelPatch;
 /// One occlusion ray: from the surface of a particle outwards.
 struct TexelRay
 {
-  Vec3f origin;    ///< local
+  Vec3f origin;    ///< local, relative to the particle's brick (see SphereSet)
   Vec3d direction; ///< unit vector
 };
 

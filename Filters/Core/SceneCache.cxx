@@ -24,13 +24,16 @@ std::uint64_t hashOf(const std::vector<Sphere>& spheres)
   return mixBits(hash);
 }
 
-bool equal(const std::vector<Sphere>& a, const std::vector<Sphere>& b)
+template <typename Element>
+bool equal(const std::vector<Element>& a, const std::vector<Element>& b)
 {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Sphere)) == 0;
+  return a.size() == b.size() &&
+    (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Element)) == 0);
 }
 }
 
-std::shared_ptr<const SphereScene> SceneCache::get(const std::vector<Sphere>& spheres)
+std::shared_ptr<const SphereScene> SceneCache::get(
+  const std::vector<Sphere>& spheres, const std::vector<Vec3d>& centers)
 {
   const std::uint64_t hash = hashOf(spheres);
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -38,12 +41,13 @@ std::shared_ptr<const SphereScene> SceneCache::get(const std::vector<Sphere>& sp
   const auto [first, last] = scenes_.equal_range(hash);
   for (auto known = first; known != last; ++known)
   {
-    if (auto scene = known->second.lock(); scene && equal(scene->spheres(), spheres))
+    auto scene = known->second.lock();
+    if (scene && equal(scene->spheres(), spheres) && equal(scene->set().centers(), centers))
     {
       return scene;
     }
   }
-  auto scene = std::make_shared<const SphereScene>(spheres);
+  auto scene = std::make_shared<const SphereScene>(SphereSet(spheres, centers));
   scenes_.emplace(hash, scene);
   return scene;
 }

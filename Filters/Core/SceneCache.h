@@ -19,7 +19,9 @@ class SceneCache
 {
 public:
   /// The scene of exactly these spheres, built if there is none. Throws like SphereScene.
-  [[nodiscard]] std::shared_ptr<const SphereScene> get(const std::vector<Sphere>& spheres);
+  /// @param centers in full, or none (see SphereSet)
+  [[nodiscard]] std::shared_ptr<const SphereScene> get(
+    const std::vector<Sphere>& spheres, const std::vector<Vec3d>& centers = {});
 
   /// Scenes in use.
   [[nodiscard]] std::size_t size();

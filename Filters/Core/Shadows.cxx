@@ -20,7 +20,7 @@ bool isLit(const SphereScene& scene, const std::uint8_t* hidden, const PrimaryRa
   {
     return false;
   }
-  const Sphere& sphere = scene.spheres()[frame.sphere[pixel]];
+  const Sphere sphere = scene.set().inBrick(frame.sphere[pixel]);
   const Vec3d origin = sphere.center().as<double>() + static_cast<double>(sphere.radius) * normal;
   const double localPerWorld = length(toLight);
   return !scene.occluded(origin.as<float>(), ((1 / localPerWorld) * toLight).as<float>(),

@@ -84,17 +84,65 @@ std::vector<Value> distribute(
   return arrived;
 }
 
+/// One of a set that is wider than floats.
+struct WideSphere
+{
+  Sphere sphere;
+  std::array<double, 3> center; ///< in full
+};
+
+const Sphere& sphereOf(const Sphere& sphere)
+{
+  return sphere;
+}
+
+const Sphere& sphereOf(const WideSphere& wide)
+{
+  return wide.sphere;
+}
+
+/// As it is for all others, ghost or not.
+Sphere withoutMark(Sphere sphere)
+{
+  sphere.radius = std::abs(sphere.radius);
+  return sphere;
+}
+
+WideSphere withoutMark(const WideSphere& wide)
+{
+  return { withoutMark(wide.sphere), wide.center };
+}
+
+void appendCenter(const Sphere& /*narrow*/, std::vector<Vec3d>& /*centers*/) {}
+
+void appendCenter(const WideSphere& wide, std::vector<Vec3d>& centers)
+{
+  centers.push_back({ wide.center[0], wide.center[1], wide.center[2] });
+}
+
+auto identityOf(const Sphere& s)
+{
+  return std::make_tuple(s.x, s.y, s.z, std::abs(s.radius));
+}
+
+/// The floats come first: they decide the place along a curve.
+auto identityOf(const WideSphere& s)
+{
+  return std::tuple_cat(identityOf(s.sphere), std::make_tuple(s.center));
+}
+
 /// A sphere with its place along a curve. The radius of a ghost travels negative.
+template <typename Travelling>
 struct Place
 {
   std::uint64_t morton;
-  Sphere sphere;
+  Travelling sphere;
 
-  [[nodiscard]] bool isGhost() const { return sphere.radius < 0; }
+  [[nodiscard]] bool isGhost() const { return sphereOf(sphere).radius < 0; }
 
   [[nodiscard]] auto identity() const
   {
-    return std::make_tuple(morton, sphere.x, sphere.y, sphere.z, std::abs(sphere.radius));
+    return std::tuple_cat(std::make_tuple(morton), identityOf(sphere));
   }
 
   /// Of equal spheres ghosts come last.
@@ -118,22 +166,25 @@ MortonCurve commonCurve(const std::vector<Sphere>& own, const ProcessGroup& grou
   return { { -half, -half, -half }, 2 * half };
 }
 
-std::vector<Place> sortedPlaces(const std::vector<Sphere>& spheres, const MortonCurve& curve)
+template <typename Travelling>
+std::vector<Place<Travelling>> sortedPlaces(
+  const std::vector<Travelling>& spheres, const MortonCurve& curve)
 {
-  std::vector<Place> places(spheres.size());
+  std::vector<Place<Travelling>> places(spheres.size());
   tbb::parallel_for(std::size_t(0), spheres.size(),
     [&](std::size_t i) {
-      places[i] = { curve(spheres[i].center()), spheres[i] };
+      places[i] = { curve(sphereOf(spheres[i]).center()), spheres[i] };
     });
   tbb::parallel_sort(places.begin(), places.end());
   return places;
 }
 
 /// A ghost goes if its original, or another copy, is there.
-void removeGhosts(std::vector<Place>& places)
+template <typename Travelling>
+void removeGhosts(std::vector<Place<Travelling>>& places)
 {
   std::size_t kept = 0;
-  for (const Place& place : places)
+  for (const Place<Travelling>& place : places)
   {
     const bool copy =
       place.isGhost() && kept > 0 && places[kept - 1].identity() == place.identity();
@@ -143,15 +194,13 @@ void removeGhosts(std::vector<Place>& places)
     }
   }
   places.resize(kept);
-  for (Place& place : places)
-  {
-    place.sphere.radius = std::abs(place.sphere.radius);
-  }
 }
 
-unsigned placeOf(const Sphere& sphere, const std::vector<Place>& places, const MortonCurve& curve)
+template <typename Travelling>
+unsigned placeOf(
+  const Travelling& sphere, const std::vector<Place<Travelling>>& places, const MortonCurve& curve)
 {
-  const Place wanted{ curve(sphere.center()), sphere };
+  const Place<Travelling> wanted{ curve(sphereOf(sphere).center()), sphere };
   return static_cast<unsigned>(
     std::lower_bound(places.begin(), places.end(), wanted) - places.begin());
 }
@@ -189,8 +238,9 @@ OccluderMesh meshOf(const std::vector<TravellingTriangle>& triangles)
 
 auto mattersTo(const Neighbourhood& neighbourhood)
 {
-  return [&neighbourhood](std::size_t process, const Sphere& s)
+  return [&neighbourhood](std::size_t process, const auto& travelling)
   {
+    const Sphere& s = sphereOf(travelling);
     const float r = std::abs(s.radius);
     const Vec3f half{ r, r, r };
     return neighbourhood.matters(process, s.center() - half, s.center() + half);
@@ -242,8 +292,34 @@ bool Neighbourhood::matters(std::size_t process, Vec3f low, Vec3f high) const
   return true;
 }
 
-SharedSpheres shareSpheres(const std::vector<Sphere>& own, const std::vector<std::uint8_t>& ghosts,
+namespace
+{
+/// @param marked the own ones, ghosts with a negative radius
+template <typename Travelling>
+SharedSpheres share(const std::vector<Travelling>& marked, const MortonCurve& curve,
   const Neighbourhood& neighbourhood, const ProcessGroup& group)
+{
+  std::vector<Place<Travelling>> places = sortedPlaces(
+    distribute(marked, group, neighbourhood.boxes.empty(), mattersTo(neighbourhood)), curve);
+  removeGhosts(places);
+
+  SharedSpheres shared;
+  shared.places.resize(marked.size());
+  // Of equal spheres, ghosts among them, the first one stands for all.
+  tbb::parallel_for(std::size_t(0), marked.size(),
+    [&](std::size_t i) { shared.places[i] = placeOf(withoutMark(marked[i]), places, curve); });
+  shared.spheres.reserve(places.size());
+  for (const Place<Travelling>& place : places)
+  {
+    shared.spheres.push_back(withoutMark(sphereOf(place.sphere)));
+    appendCenter(place.sphere, shared.centers);
+  }
+  return shared;
+}
+}
+
+SharedSpheres shareSpheres(const std::vector<Sphere>& own, const std::vector<std::uint8_t>& ghosts,
+  const Neighbourhood& neighbourhood, const ProcessGroup& group, const std::vector<Vec3d>& centers)
 {
   const MortonCurve curve = commonCurve(own, group);
   std::vector<Sphere> marked = own;
@@ -251,26 +327,27 @@ SharedSpheres shareSpheres(const std::vector<Sphere>& own, const std::vector<std
   {
     marked[i].radius = ghosts[i] != 0 ? -own[i].radius : own[i].radius;
   }
-  const std::vector<Sphere> all =
-    distribute(marked, group, neighbourhood.boxes.empty(), mattersTo(neighbourhood));
-  std::vector<Place> places = sortedPlaces(all, curve);
-  removeGhosts(places);
-
-  SharedSpheres shared;
-  shared.places.resize(own.size());
-  tbb::parallel_for(std::size_t(0), own.size(),
-    [&](std::size_t i) { shared.places[i] = placeOf(own[i], places, curve); });
-  shared.spheres.reserve(places.size());
-  std::transform(places.begin(), places.end(), std::back_inserter(shared.spheres),
-    [](const Place& place) { return place.sphere; });
-  return shared;
+  if (group.largest(centers.empty() ? 0.0 : 1.0) == 0)
+  {
+    return share(marked, curve, neighbourhood, group);
+  }
+  std::vector<WideSphere> wide;
+  wide.reserve(marked.size());
+  for (std::size_t i = 0; i < marked.size(); ++i)
+  {
+    const Vec3d c = centers.empty() ? marked[i].center().as<double>() : centers[i];
+    wide.push_back({ marked[i], { c.x, c.y, c.z } });
+  }
+  return share(wide, curve, neighbourhood, group);
 }
 
 Occluders shareOccluders(
   Occluders own, const Neighbourhood& neighbourhood, const ProcessGroup& group)
 {
   Occluders all;
-  all.spheres = shareSpheres(own.spheres, {}, neighbourhood, group).spheres;
+  SharedSpheres spheres = shareSpheres(own.spheres, {}, neighbourhood, group, own.centers);
+  all.spheres = std::move(spheres.spheres);
+  all.centers = std::move(spheres.centers);
   if (group.size() == 1)
   {
     all.mesh = std::move(own.mesh);

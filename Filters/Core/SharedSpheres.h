@@ -33,18 +33,20 @@ struct Neighbourhood
 struct SharedSpheres
 {
   std::vector<Sphere> spheres;
+  std::vector<Vec3d> centers;   ///< in full, if any process has such; else empty
   std::vector<unsigned> places; ///< of each own sphere; ghosts and coinciding ones share a place
 };
 
-/// Gathers the spheres that matter to this process: 16 bytes of each travel. Own ones are always
-/// among them.
+/// Gathers the spheres that matter to this process: 16 bytes of each travel, 40 of a set that is
+/// wider than floats. Own ones are always among them.
 ///
 /// @param own local, in a frame that all processes share
 /// @param ghosts flags by own sphere, or empty: copies of spheres that another process has. One
 /// whose original is nowhere counts as a sphere, once.
+/// @param centers of the own spheres in full, or none (see SphereSet)
 [[nodiscard]] SharedSpheres shareSpheres(const std::vector<Sphere>& own,
   const std::vector<std::uint8_t>& ghosts, const Neighbourhood& neighbourhood,
-  const ProcessGroup& group);
+  const ProcessGroup& group, const std::vector<Vec3d>& centers = {});
 
 /// The spheres and triangles that only occlude, of all processes, as far as they matter to this
 /// one.

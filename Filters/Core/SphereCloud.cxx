@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereCloud.h"
 
+#include "SphereSet.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,12 +24,14 @@ struct Extent
   Vec3d low{ +HUGE_VAL, +HUGE_VAL, +HUGE_VAL };
   Vec3d high{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   double largestRadius = 0;
+  double smallestRadius = HUGE_VAL;
 
   void include(Vec3d p, double radius)
   {
     low = { std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z) };
     high = { std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z) };
     largestRadius = std::max(largestRadius, radius);
+    smallestRadius = std::min(smallestRadius, radius);
   }
 
   void join(const ProcessGroup& group)
@@ -36,7 +40,7 @@ struct Extent
     {
       *number = group.largest(*number);
     }
-    for (double* number : { &low.x, &low.y, &low.z })
+    for (double* number : { &low.x, &low.y, &low.z, &smallestRadius })
     {
       *number = -group.largest(-*number);
     }
@@ -116,6 +120,26 @@ bool fitsFloat(Vec3d local, double radius)
   return isWithin(local, radius) && radius > SmallestLocalRadius;
 }
 
+/// Is one frame of floats too coarse?
+bool isWide(const std::vector<Sphere>& spheres)
+{
+  return std::any_of(spheres.begin(), spheres.end(),
+    [](const Sphere& s)
+    {
+      const double reach = std::max({ std::abs(s.x), std::abs(s.y), std::abs(s.z) });
+      return reach > SphereSet::LargestBrick;
+    });
+}
+
+void addCenters(SphereCloud& cloud, const std::function<Vec3d(std::size_t)>& positionAt)
+{
+  cloud.centers.reserve(cloud.sourceIds.size());
+  for (const std::int64_t id : cloud.sourceIds)
+  {
+    cloud.centers.push_back(cloud.toLocal(positionAt(static_cast<std::size_t>(id))));
+  }
+}
+
 /// Visits usable particles that are no ghosts.
 template <typename Visit>
 void forEachOwned(const ParticleSource& source, const Visit& visit)
@@ -132,7 +156,46 @@ void forEachOwned(const ParticleSource& source, const Visit& visit)
   }
 }
 
-/// Chooses the middle and the mean radius; no sphere is made.
+double medianOf(std::vector<double>& values)
+{
+  if (values.empty())
+  {
+    return -HUGE_VAL;
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Does all that was included fit floats relative to the frame of a cloud?
+bool fitsFrame(const SphereCloud& cloud, const Extent& extent)
+{
+  const double margin = extent.largestRadius / cloud.scale;
+  return fitsFloat(cloud.toLocal(extent.low), margin) &&
+    fitsFloat(cloud.toLocal(extent.high), margin) &&
+    extent.smallestRadius / cloud.scale > SmallestLocalRadius;
+}
+
+/// A frame that a few absurd particles cannot spoil for the others: the medians, of several
+/// processes the largest ones.
+void useMedians(SphereCloud& cloud, const ParticleSource& source, const ProcessGroup& group)
+{
+  std::vector<double> x, y, z, radii;
+  forEachOwned(source,
+    [&](Vec3d position, double radius)
+    {
+      x.push_back(position.x);
+      y.push_back(position.y);
+      z.push_back(position.z);
+      radii.push_back(radius);
+    });
+  cloud.origin = { group.largest(medianOf(x)), group.largest(medianOf(y)),
+    group.largest(medianOf(z)) };
+  cloud.scale = group.largest(medianOf(radii));
+}
+
+/// Chooses the middle and the mean radius, or, where some particles would not fit, the medians; no
+/// sphere is made.
 SphereCloud emptyCloudAround(const ParticleSource& source, const ProcessGroup& group)
 {
   SphereCloud cloud;
@@ -145,6 +208,10 @@ SphereCloud emptyCloudAround(const ParticleSource& source, const ProcessGroup& g
     forEachOwned(source, [&](Vec3d, double radius) { mean.include(radius); });
     cloud.origin = extent.middle();
     cloud.scale = mean.get(group);
+    if (!fitsFrame(cloud, extent))
+    {
+      useMedians(cloud, source, group);
+    }
   }
   return cloud;
 }
@@ -209,6 +276,10 @@ SphereCloud makeSphereCloudLike(const SphereCloud& other, const ParticleSource& 
     {
       cloud.ghosts.push_back(ghost ? 1 : 0);
     }
+  }
+  if (isWide(cloud.spheres))
+  {
+    addCenters(cloud, source.positionAt);
   }
   return cloud;
 }

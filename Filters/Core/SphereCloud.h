@@ -32,23 +32,37 @@ struct RejectedParticles
 /// Spheres made ready for single-precision ray tracing.
 ///
 /// Float arithmetic loses the surface of a small sphere far from the origin, so positions are taken
-/// relative to the middle of the cloud (subtracted in double) and divided by the mean radius:
-/// local = (world - origin) / scale. All lengths that enter ray tracing are local.
+/// relative to the middle of the cloud (subtracted in double) and divided by the mean radius (by
+/// the medians where otherwise some would be out of range, so that those alone are left out):
+/// local = (world - origin) / scale. All lengths that enter ray tracing are local. In a cloud that
+/// is some thousand radii wide floats are too coarse all the same: see SphereSet.
 struct SphereCloud
 {
-  Vec3d origin;                        ///< world position of the local origin
-  double scale = 1;                    ///< world length of one local unit: the mean radius
-  std::vector<Sphere> spheres;         ///< the usable spheres, in input order, local
+  Vec3d origin;                ///< world position of the local origin
+  double scale = 1;            ///< world length of one local unit: the mean radius
+  std::vector<Sphere> spheres; ///< the usable spheres, in input order, local
+  std::vector<Vec3d> centers;  ///< theirs in full, local, where floats are too coarse; or empty
   std::vector<std::int64_t> sourceIds; ///< index of each sphere in the input
   /// Flags by sphere: copies of particles that another process, or another block, has. Empty where
   /// nobody asked.
   std::vector<std::uint8_t> ghosts;
   RejectedParticles rejected;
 
+  /// Local, in full.
+  [[nodiscard]] Vec3d center(std::size_t i) const
+  {
+    return centers.empty() ? spheres[i].center().as<double>() : centers[i];
+  }
+
   /// Is a point of these local coordinates near enough for ray tracing in floats?
   [[nodiscard]] static bool inRange(Vec3d local);
 
-  [[nodiscard]] Vec3d toLocal(Vec3d world) const { return (1.0 / scale) * (world - origin); }
+  /// Divides: the inverse of a denormal scale would be infinite.
+  [[nodiscard]] Vec3d toLocal(Vec3d world) const
+  {
+    const Vec3d d = world - origin;
+    return { d.x / scale, d.y / scale, d.z / scale };
+  }
   [[nodiscard]] Vec3d toWorld(Vec3d local) const { return origin + scale * local; }
 };
 

@@ -35,17 +35,12 @@ bool sameView(const Camera& a, const Camera& b)
     a.height == b.height;
 }
 
-bool same(Vec3d a, Vec3d b)
-{
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 /// Do both lights reach the same points? Colours do not matter, nor how fast the light declines.
 bool sameReach(const Light& a, const Light& b)
 {
-  const bool sameCone = a.coneAngle == b.coneAngle && same(a.direction, b.direction);
+  const bool sameCone = a.coneAngle == b.coneAngle && a.direction == b.direction;
   return a.positional == b.positional &&
-    (a.positional ? sameCone && same(a.position, b.position) : same(a.direction, b.direction));
+    (a.positional ? sameCone && a.position == b.position : a.direction == b.direction);
 }
 
 bool sameStyle(const Style& a, const Style& b)
@@ -110,7 +105,7 @@ FrameSettings SphereRenderer::settings(SamplePlace place) const
 void SphereRenderer::buildScene()
 {
   const Stopwatch watch(statistics_.buildSeconds);
-  scene_ = scenes_->get(cloud_.spheres);
+  scene_ = scenes_->get(cloud_.spheres, cloud_.centers);
 }
 
 bool SphereRenderer::isCurrent(const Camera& camera, const Matrix4& modelToWorld) const

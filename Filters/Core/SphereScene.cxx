@@ -4,6 +4,7 @@
 #include "TriangleDistance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -26,7 +27,7 @@ constexpr unsigned FewRays = 3;
 /// Rejects the ray's own sphere, hidden ones, and every sphere whose centre does not lie ahead.
 void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
 {
-  const auto* spheres = static_cast<const Sphere*>(arguments->geometryUserPtr);
+  const auto* brick = static_cast<const Brick*>(arguments->geometryUserPtr);
   const auto* context = reinterpret_cast<const OcclusionContext*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i)
   {
@@ -34,14 +35,15 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
     {
       continue;
     }
-    const unsigned id = RTCHitN_primID(arguments->hit, arguments->N, i);
+    const unsigned place = RTCHitN_primID(arguments->hit, arguments->N, i);
     const Vec3f origin{ RTCRayN_org_x(arguments->ray, arguments->N, i),
       RTCRayN_org_y(arguments->ray, arguments->N, i),
       RTCRayN_org_z(arguments->ray, arguments->N, i) };
     const Vec3f direction{ RTCRayN_dir_x(arguments->ray, arguments->N, i),
       RTCRayN_dir_y(arguments->ray, arguments->N, i),
       RTCRayN_dir_z(arguments->ray, arguments->N, i) };
-    const bool ahead = dot(spheres[id].center() - origin, direction) > 0;
+    const bool ahead = dot(brick->spheres[place].center() - origin, direction) > 0;
+    const unsigned id = brick->id(place);
     const bool hidden = context->hidden && context->hidden[id] != 0;
     if (id == context->own || hidden || !ahead)
     {
@@ -96,54 +98,100 @@ namespace
 {
 /// A distance beyond the rounding of a ray's start, and within a thousandth of the smallest radius;
 /// 0 if there is none.
-float startBeyondRounding(const std::vector<Sphere>& spheres)
+float startBeyondRounding(const SphereSet& set)
 {
   float extent = 0;
   float smallest = std::numeric_limits<float>::max();
-  for (const Sphere& s : spheres)
+  for (const Brick& brick : set.bricks())
   {
-    extent = std::max(
-      { extent, std::abs(s.x) + s.radius, std::abs(s.y) + s.radius, std::abs(s.z) + s.radius });
-    smallest = std::min(smallest, s.radius);
+    for (const Sphere* s = brick.spheres; s != brick.spheres + brick.count; ++s)
+    {
+      extent = std::max({ extent, std::abs(s->x) + s->radius, std::abs(s->y) + s->radius,
+        std::abs(s->z) + s->radius });
+      smallest = std::min(smallest, s->radius);
+    }
   }
   const float start = 8 * std::numeric_limits<float>::epsilon() * extent;
   return start < 1e-3f * smallest ? start : 0.0f;
 }
+
+/// Clips [enter, leave] of a ray to one slab.
+void clipSlab(
+  double origin, double direction, double low, double high, double& enter, double& leave)
+{
+  if (direction == 0)
+  {
+    leave = origin < low || origin > high ? -HUGE_VAL : leave;
+    return;
+  }
+  const double a = (low - origin) / direction;
+  const double b = (high - origin) / direction;
+  enter = std::max(enter, std::min(a, b));
+  leave = std::min(leave, std::max(a, b));
 }
 
-SphereScene::SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh)
-  : device_(makeDevice(spheres.size() + mesh.triangles.size()))
-  , spheres_(std::move(spheres))
-  , hasMesh_(!mesh.triangles.empty())
-  , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(spheres_))
-  , scene_(makeScene(device_.get()))
+/// May a ray meet what a brick holds? Directions are floats: far away their rounding counts.
+bool mayMeet(const Brick& brick, Vec3d origin, Vec3f direction, double distance)
 {
-  rtcSetSceneFlags(scene_.get(), QueryFilterFlag);
-  if (!spheres_.empty())
+  const Vec3d d = direction.as<double>();
+  const double slack = 1e-6 * (length(brick.high - brick.low) + length(brick.low - origin));
+  const Vec3d grow{ slack, slack, slack };
+  const Vec3d low = brick.low - grow;
+  const Vec3d high = brick.high + grow;
+  double enter = 0;
+  double leave = distance;
+  clipSlab(origin.x, d.x, low.x, high.x, enter, leave);
+  clipSlab(origin.y, d.y, low.y, high.y, enter, leave);
+  clipSlab(origin.z, d.z, low.z, high.z, enter, leave);
+  return enter <= leave;
+}
+}
+
+SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
+  : device_(makeDevice(set.size() + mesh.triangles.size()))
+  , set_(std::move(set))
+  , hasMesh_(!mesh.triangles.empty())
+  , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(set_))
+{
+  for (const Brick& brick : set_.bricks())
   {
-    addSpheres();
+    scenes_.push_back(makeScene(device_.get()));
+    rtcSetSceneFlags(scenes_.back().get(), QueryFilterFlag);
+    if (brick.count > 0)
+    {
+      addSpheres(scenes_.back().get(), brick);
+    }
   }
-  if (hasMesh_)
+  if (hasMesh_ && scenes_.size() > 1)
   {
-    addTriangles(mesh);
+    mesh_ = makeScene(device_.get());
+    addTriangles(mesh_.get(), mesh);
+    rtcCommitScene(mesh_.get());
   }
-  rtcCommitScene(scene_.get());
+  else if (hasMesh_)
+  {
+    addTriangles(scenes_.front().get(), mesh);
+  }
+  for (const SceneHandle& scene : scenes_)
+  {
+    rtcCommitScene(scene.get());
+  }
   throwOnError(device_.get(), "building the scene of spheres");
 }
 
-void SphereScene::addSpheres()
+void SphereScene::addSpheres(RTCScene scene, const Brick& brick)
 {
   const GeometryHandle geometry =
     makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT, "EMBREE_GEOMETRY_POINT");
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-    spheres_.data(), 0, sizeof(Sphere), spheres_.size());
-  rtcSetGeometryUserData(geometry.get(), spheres_.data());
+    brick.spheres, 0, sizeof(Sphere), brick.count);
+  rtcSetGeometryUserData(geometry.get(), const_cast<Brick*>(&brick));
   rtcSetGeometryOccludedFilterFunction(geometry.get(), keepSpheresAhead);
   rtcCommitGeometry(geometry.get());
-  rtcAttachGeometryByID(scene_.get(), geometry.get(), SphereGeometry);
+  rtcAttachGeometryByID(scene, geometry.get(), SphereGeometry);
 }
 
-void SphereScene::addTriangles(const OccluderMesh& mesh)
+void SphereScene::addTriangles(RTCScene scene, const OccluderMesh& mesh)
 {
   if (rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_BACKFACE_CULLING_ENABLED) != 0)
   {
@@ -156,87 +204,138 @@ void SphereScene::addTriangles(const OccluderMesh& mesh)
   copyBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices);
   copyBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
   rtcCommitGeometry(geometry.get());
-  rtcAttachGeometryByID(scene_.get(), geometry.get(), TriangleGeometry);
+  rtcAttachGeometryByID(scene, geometry.get(), TriangleGeometry);
   // Of rays aimed at edges that triangles share, 5 % slip through without this, 0.1 % with it.
-  rtcSetSceneFlags(
-    scene_.get(), static_cast<RTCSceneFlags>(QueryFilterFlag | RTC_SCENE_FLAG_ROBUST));
+  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(QueryFilterFlag | RTC_SCENE_FLAG_ROBUST));
 }
 
 bool SphereScene::occluded(
   Vec3f origin, Vec3f direction, float distance, unsigned own, const std::uint8_t* hidden) const
 {
-  OcclusionContext context;
-  initRayQueryContext(context.embree, false);
-  context.own = own;
-  context.hidden = hidden;
-
-  RTCRay ray;
-  ray.org_x = origin.x;
-  ray.org_y = origin.y;
-  ray.org_z = origin.z;
-  ray.tnear = own == None ? 0 : rayStart_;
-  ray.dir_x = direction.x;
-  ray.dir_y = direction.y;
-  ray.dir_z = direction.z;
-  ray.time = 0;
-  ray.tfar = distance;
-  ray.mask = 0xFFFFFFFFu;
-  ray.id = 0;
-  ray.flags = 0;
-  occluded1(scene_.get(), context.embree, ray);
-  return ray.tfar < 0; // Embree marks an occluded ray with -infinity
+  const Rays rays{ &origin, 1, direction, distance, own, hidden };
+  return traceAll(rays) != 0;
 }
 
 unsigned SphereScene::occludedFrom(
   const Vec3f* origins, unsigned count, Vec3f direction, float distance, unsigned own) const
 {
-  unsigned stopped = 0;
-  if (count <= FewRays)
-  {
-    for (unsigned i = 0; i < count; ++i)
-    {
-      stopped |= unsigned(occluded(origins[i], direction, distance, own)) << i;
-    }
-    return stopped;
-  }
-  OcclusionContext context;
-  initRayQueryContext(context.embree, true);
-  context.own = own;
-  context.hidden = nullptr;
+  return traceAll({ origins, count, direction, distance, own, nullptr });
+}
 
-  alignas(64) int valid[PacketSize];
-  RTCRay16 rays;
-  for (unsigned i = 0; i < PacketSize; ++i)
+unsigned SphereScene::traceAll(const Rays& rays) const
+{
+  return scenes_.size() == 1 ? trace(scenes_.front().get(), rays) : traceBricks(rays);
+}
+
+/// Brick by brick, each relative to its own origin.
+unsigned SphereScene::traceBricks(const Rays& rays) const
+{
+  const std::vector<Brick>& bricks = set_.bricks();
+  const Vec3d home = rays.own == None ? Vec3d() : bricks[set_.brickOf(rays.own)].origin;
+  std::array<Vec3f, PacketSize> origins;
+  Rays moved = rays;
+  moved.origins = origins.data();
+  unsigned stopped = 0;
+  const auto traceFrom = [&](RTCScene scene, Vec3d origin)
   {
-    const Vec3f origin = origins[i < count ? i : 0];
-    valid[i] = i < count ? -1 : 0;
-    rays.org_x[i] = origin.x;
-    rays.org_y[i] = origin.y;
-    rays.org_z[i] = origin.z;
-    rays.tnear[i] = own == None ? 0 : rayStart_;
-    rays.dir_x[i] = direction.x;
-    rays.dir_y[i] = direction.y;
-    rays.dir_z[i] = direction.z;
-    rays.time[i] = 0;
-    rays.tfar[i] = distance;
-    rays.mask[i] = 0xFFFFFFFFu;
-    rays.id[i] = i;
-    rays.flags[i] = 0;
+    for (unsigned i = 0; i < rays.count; ++i)
+    {
+      origins[i] = (rays.origins[i].as<double>() + (home - origin)).as<float>();
+    }
+    stopped |= trace(scene, moved);
+  };
+  const unsigned all = (1u << rays.count) - 1;
+  for (std::size_t i = 0; i < bricks.size() && stopped != all; ++i)
+  {
+    const auto meets = [&](Vec3f origin)
+    { return mayMeet(bricks[i], home + origin.as<double>(), rays.direction, rays.distance); };
+    if (std::any_of(rays.origins, rays.origins + rays.count, meets))
+    {
+      traceFrom(scenes_[i].get(), bricks[i].origin);
+    }
   }
-  occluded16(valid, scene_.get(), context.embree, rays);
-  for (unsigned i = 0; i < count; ++i)
+  if (mesh_ && stopped != all)
   {
-    stopped |= unsigned(rays.tfar[i] < 0) << i;
+    traceFrom(mesh_.get(), {});
   }
   return stopped;
 }
+
+unsigned SphereScene::trace(RTCScene scene, const Rays& rays) const
+{
+  return rays.count <= FewRays ? traceSingly(scene, rays) : tracePacket(scene, rays);
+}
+
+unsigned SphereScene::traceSingly(RTCScene scene, const Rays& rays) const
+{
+  OcclusionContext context;
+  initRayQueryContext(context.embree, false);
+  context.own = rays.own;
+  context.hidden = rays.hidden;
+  unsigned stopped = 0;
+  for (unsigned i = 0; i < rays.count; ++i)
+  {
+    RTCRay ray;
+    ray.org_x = rays.origins[i].x;
+    ray.org_y = rays.origins[i].y;
+    ray.org_z = rays.origins[i].z;
+    ray.tnear = rays.own == None ? 0 : rayStart_;
+    ray.dir_x = rays.direction.x;
+    ray.dir_y = rays.direction.y;
+    ray.dir_z = rays.direction.z;
+    ray.time = 0;
+    ray.tfar = rays.distance;
+    ray.mask = 0xFFFFFFFFu;
+    ray.id = 0;
+    ray.flags = 0;
+    occluded1(scene, context.embree, ray);
+    stopped |= unsigned(ray.tfar < 0) << i; // Embree marks an occluded ray with -infinity
+  }
+  return stopped;
+}
+
+unsigned SphereScene::tracePacket(RTCScene scene, const Rays& rays) const
+{
+  OcclusionContext context;
+  initRayQueryContext(context.embree, true);
+  context.own = rays.own;
+  context.hidden = rays.hidden;
+  alignas(64) int valid[PacketSize];
+  RTCRay16 packet;
+  for (unsigned i = 0; i < PacketSize; ++i)
+  {
+    const Vec3f origin = rays.origins[i < rays.count ? i : 0];
+    valid[i] = i < rays.count ? -1 : 0;
+    packet.org_x[i] = origin.x;
+    packet.org_y[i] = origin.y;
+    packet.org_z[i] = origin.z;
+    packet.tnear[i] = rays.own == None ? 0 : rayStart_;
+    packet.dir_x[i] = rays.direction.x;
+    packet.dir_y[i] = rays.direction.y;
+    packet.dir_z[i] = rays.direction.z;
+    packet.time[i] = 0;
+    packet.tfar[i] = rays.distance;
+    packet.mask[i] = 0xFFFFFFFFu;
+    packet.id[i] = i;
+    packet.flags[i] = 0;
+  }
+  occluded16(valid, scene, context.embree, packet);
+  unsigned stopped = 0;
+  for (unsigned i = 0; i < rays.count; ++i)
+  {
+    stopped |= unsigned(packet.tfar[i] < 0) << i;
+  }
+  return stopped;
+}
+
 bool SphereScene::isMeshWithin(Vec3f point, float reach) const
 {
   if (!hasMesh_)
   {
     return false;
   }
-  const RTCGeometry geometry = rtcGetGeometry(scene_.get(), TriangleGeometry);
+  const RTCScene scene = mesh_ ? mesh_.get() : scenes_.front().get();
+  const RTCGeometry geometry = rtcGetGeometry(scene, TriangleGeometry);
   MeshQuery mesh{ static_cast<const Vec3f*>(
                     rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)),
     static_cast<const std::array<unsigned, 3>*>(
@@ -250,7 +349,7 @@ bool SphereScene::isMeshWithin(Vec3f point, float reach) const
   query.radius = reach;
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene_.get(), &query, &context, visitTriangle, &mesh);
+  rtcPointQuery(scene, &query, &context, visitTriangle, &mesh);
   return mesh.found;
 }
 }

@@ -4,10 +4,11 @@
 
 #include "Embree.h"
 #include "OccluderMesh.h"
-#include "Sphere.h"
+#include "SphereSet.h"
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace po
@@ -39,17 +40,24 @@ public:
 
   /// Builds the acceleration structure in parallel. An empty scene is allowed. The mesh is copied.
   /// Throws std::runtime_error or std::bad_alloc when Embree cannot.
-  explicit SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh = {});
+  explicit SphereScene(SphereSet set, const OccluderMesh& mesh = {});
+  explicit SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh = {})
+    : SphereScene(SphereSet(std::move(spheres)), mesh)
+  {
+  }
 
-  /// For rays of the caller's own making. Intersections are Embree's, unfiltered; in a scene with a
-  /// mesh, hits on triangles have the geometry id TriangleGeometry.
-  [[nodiscard]] RTCScene handle() const { return scene_.get(); }
+  /// For rays of the caller's own making, relative to the origin of a brick of the set.
+  /// Intersections are Embree's, unfiltered; in a scene with a mesh and one brick, hits on
+  /// triangles have the geometry id TriangleGeometry.
+  [[nodiscard]] RTCScene handle(std::size_t brick = 0) const { return scenes_[brick].get(); }
 
-  [[nodiscard]] const std::vector<Sphere>& spheres() const { return spheres_; }
+  [[nodiscard]] const SphereSet& set() const { return set_; }
+  [[nodiscard]] const std::vector<Sphere>& spheres() const { return set_.spheres(); }
 
   /// Is anything hit between the origin and `distance`?
   ///
-  /// @param origin a point outside all spheres, or on the surface of sphere `own`
+  /// @param origin a point outside all spheres, or on the surface of sphere `own`; relative to the
+  /// origin of the brick of `own`, if there is one, else to that of the set
   /// @param direction unit vector; it must point out of sphere `own`
   /// @param distance length of the ray, infinity for an unbounded one
   /// @param own sphere the ray starts on, or None
@@ -69,14 +77,31 @@ public:
   [[nodiscard]] bool isMeshWithin(Vec3f point, float reach) const;
 
 private:
-  void addSpheres();
-  void addTriangles(const OccluderMesh& mesh);
+  /// As many parallel rays as occludedFrom() traces, relative to a brick.
+  struct Rays
+  {
+    const Vec3f* origins;
+    unsigned count;
+    Vec3f direction;
+    float distance;
+    unsigned own;
+    const std::uint8_t* hidden;
+  };
+
+  void addSpheres(RTCScene scene, const Brick& brick);
+  void addTriangles(RTCScene scene, const OccluderMesh& mesh);
+  [[nodiscard]] unsigned traceAll(const Rays& rays) const;
+  [[nodiscard]] unsigned trace(RTCScene scene, const Rays& rays) const;
+  [[nodiscard]] unsigned traceSingly(RTCScene scene, const Rays& rays) const;
+  [[nodiscard]] unsigned tracePacket(RTCScene scene, const Rays& rays) const;
+  [[nodiscard]] unsigned traceBricks(const Rays& rays) const;
 
   DeviceHandle device_;
-  std::vector<Sphere> spheres_;
+  SphereSet set_;
   bool hasMesh_;
-  float rayStart_; ///< where rays from a sphere's surface begin
-  SceneHandle scene_;
+  float rayStart_;                  ///< where rays from a sphere's surface begin
+  std::vector<SceneHandle> scenes_; ///< by brick; the only one holds the triangles too
+  SceneHandle mesh_;                ///< the triangles beside several bricks, or null
 };
 }
 

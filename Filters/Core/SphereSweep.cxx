@@ -218,12 +218,14 @@ SweepCounters SphereSweep::counters(bool full) const
   return sum;
 }
 
-void SphereSweep::project(const AxisJob& job, std::vector<ProjectedSphere>& projected) const
+/// @param origin that floats are relative to
+void SphereSweep::project(
+  const AxisJob& job, Vec3d origin, std::vector<ProjectedSphere>& projected) const
 {
   const auto add = [&](unsigned index)
   {
     const Sphere& s = scene_.sphere(index);
-    const Vec3d c = s.center().as<double>();
+    const Vec3d c = scene_.center(index) - origin;
     projected.push_back(
       { static_cast<float>(dot(c, job.basis.x)), static_cast<float>(dot(c, job.basis.y)),
         static_cast<float>(dot(c, job.axis)), s.radius, index });
@@ -253,14 +255,19 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
     return;
   }
   Workspace& work = workspaces_.local();
-  project(job, work.projected);
   work.seen.assign(scene_.size(), 0);
   if (useOffsetMasks_)
   {
     buildOffsetMasks(job, work);
   }
+  const Vec3d* origin = nullptr;
   for (const SweepScene::Band& band : scene_.bands())
   {
+    if (origin == nullptr || !(*origin == band.origin))
+    {
+      origin = &band.origin;
+      project(job, *origin, work.projected);
+    }
     sweepBand(band, job, work, progress);
     if (progress.aborted())
     {

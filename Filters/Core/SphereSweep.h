@@ -91,7 +91,7 @@ private:
   void sweepAxis(AxisJob& job, Progress& progress);
   void sweepBand(
     const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);
-  void project(const AxisJob& job, std::vector<ProjectedSphere>& projected) const;
+  void project(const AxisJob& job, Vec3d origin, std::vector<ProjectedSphere>& projected) const;
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
   [[nodiscard]] std::size_t nextPattern();
   void finishBlock();

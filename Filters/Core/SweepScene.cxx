@@ -9,16 +9,20 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <tuple>
 
 namespace po
 {
 namespace
 {
-/// Place of a sphere in the order; the source makes it unique.
+/// Place of a sphere in the order; equal spheres follow each other, and the source makes it unique.
 struct Place
 {
   int band;
+  std::size_t brick;
   std::uint64_t morton;
+  const Sphere* sphere;
   unsigned source;
 
   bool operator<(const Place& other) const
@@ -27,19 +31,29 @@ struct Place
     {
       return band < other.band;
     }
-    return morton != other.morton ? morton < other.morton : source < other.source;
+    if (brick != other.brick)
+    {
+      return brick < other.brick;
+    }
+    if (morton != other.morton)
+    {
+      return morton < other.morton;
+    }
+    const auto numbers = [](const Place& p)
+    { return std::tuple(p.sphere->x, p.sphere->y, p.sphere->z, p.sphere->radius, p.source); };
+    return numbers(*this) < numbers(other);
   }
 };
 
-/// Through the bounding box of the spheres.
-MortonCurve curveThrough(const std::vector<Sphere>& spheres)
+/// Through the bounding box of a brick.
+MortonCurve curveThrough(const Brick& brick)
 {
-  Vec3f low = spheres.front().center();
+  Vec3f low = brick.spheres->center();
   Vec3f high = low;
-  for (const Sphere& s : spheres)
+  for (const Sphere* s = brick.spheres; s != brick.spheres + brick.count; ++s)
   {
-    low = { std::min(low.x, s.x), std::min(low.y, s.y), std::min(low.z, s.z) };
-    high = { std::max(high.x, s.x), std::max(high.y, s.y), std::max(high.z, s.z) };
+    low = { std::min(low.x, s->x), std::min(low.y, s->y), std::min(low.z, s->z) };
+    high = { std::max(high.x, s->x), std::max(high.y, s->y), std::max(high.z, s->z) };
   }
   return { low, std::max({ high.x - low.x, high.y - low.y, high.z - low.z }) };
 }
@@ -72,8 +86,9 @@ std::array<int, 256> bandsOfOctaves(const std::array<std::size_t, 256>& counts)
   return bands;
 }
 
-std::vector<Place> sortedPlaces(const std::vector<Sphere>& spheres)
+std::vector<Place> sortedPlaces(const SphereSet& set)
 {
+  const std::vector<Sphere>& spheres = set.spheres();
   float largest = 0;
   for (const Sphere& s : spheres)
   {
@@ -85,39 +100,59 @@ std::vector<Place> sortedPlaces(const std::vector<Sphere>& spheres)
     ++counts[octaveOf(s.radius, largest)];
   }
   const std::array<int, 256> bands = bandsOfOctaves(counts);
-  const MortonCurve morton = curveThrough(spheres);
+  std::vector<MortonCurve> curves;
+  std::transform(
+    set.bricks().begin(), set.bricks().end(), std::back_inserter(curves), curveThrough);
   std::vector<Place> places(spheres.size());
   for (unsigned i = 0; i < places.size(); ++i)
   {
-    places[i] = { bands[octaveOf(spheres[i].radius, largest)], morton(spheres[i].center()), i };
+    const std::size_t brick = set.brickOf(i);
+    places[i] = { bands[octaveOf(spheres[i].radius, largest)], brick,
+      curves[brick](set.inBrick(i).center()), &spheres[i], i };
   }
   tbb::parallel_sort(places.begin(), places.end());
   return places;
 }
 }
 
-SweepScene::SweepScene(const std::vector<Sphere>& spheres)
-  : indexOf_(spheres.size())
+namespace
 {
+bool areEqual(const SphereSet& set, unsigned a, unsigned b)
+{
+  return set.center(a) == set.center(b) && set.spheres()[a].radius == set.spheres()[b].radius;
+}
+}
+
+SweepScene::SweepScene(const SphereSet& set)
+  : set_(set)
+  , indexOf_(set.size())
+{
+  const std::vector<Sphere>& spheres = set.spheres();
   if (spheres.empty())
   {
     return;
   }
-  const std::vector<Place> places = sortedPlaces(spheres);
+  const std::vector<Place> places = sortedPlaces(set);
   spheres_.reserve(places.size());
   source_.reserve(places.size());
   for (unsigned i = 0; i < places.size(); ++i)
   {
     const Sphere& s = spheres[places[i].source];
+    if (i > 0 && areEqual(set, places[i - 1].source, places[i].source))
+    {
+      indexOf_[places[i].source] = indexOf_[places[i - 1].source];
+      continue;
+    }
+    const auto index = static_cast<unsigned>(spheres_.size());
     spheres_.push_back(s);
     source_.push_back(places[i].source);
-    indexOf_[places[i].source] = i;
-    if (i == 0 || places[i].band != places[i - 1].band)
+    indexOf_[places[i].source] = index;
+    if (i == 0 || places[i].band != places[i - 1].band || places[i].brick != places[i - 1].brick)
     {
-      bands_.push_back({ i, i, s.radius, s.radius });
+      bands_.push_back({ index, index, s.radius, s.radius, set.bricks()[places[i].brick].origin });
     }
     Band& band = bands_.back();
-    band.last = i + 1;
+    band.last = index + 1;
     band.smallestRadius = std::min(band.smallestRadius, s.radius);
     band.largestRadius = std::max(band.largestRadius, s.radius);
   }

@@ -2,7 +2,7 @@
 #ifndef po_SweepScene_h
 #define po_SweepScene_h
 
-#include "Sphere.h"
+#include "SphereSet.h"
 
 #include <cstddef>
 #include <vector>
@@ -12,7 +12,9 @@ namespace po
 /// The spheres of a scene in the order in which a sweep works: sorted into bands of their radii,
 /// so that a few large ones do not make the tiles and cells of the many small ones large, and
 /// within a band along a Morton curve, so that spheres that are near in space are near in
-/// memory.
+/// memory. Spheres of different bricks (see SphereSet) are in different bands. Of equal spheres at
+/// one place, which see the same, one stands for all: thousands of them would all look at each
+/// other.
 class SweepScene
 {
 public:
@@ -22,19 +24,29 @@ public:
   {
     unsigned first, last;
     float smallestRadius, largestRadius;
+    Vec3d origin; ///< of the brick: what is near to these spheres is projected relative to it
   };
 
-  explicit SweepScene(const std::vector<Sphere>& spheres);
+  /// The set must outlive this.
+  explicit SweepScene(const SphereSet& set);
 
+  /// Without repetitions.
   [[nodiscard]] std::size_t size() const { return spheres_.size(); }
   [[nodiscard]] const Sphere& sphere(unsigned index) const { return spheres_[index]; }
+  /// In full, relative to the origin of the set.
+  [[nodiscard]] Vec3d center(unsigned index) const
+  {
+    return set_.bricks().size() == 1 ? spheres_[index].center().as<double>()
+                                     : set_.center(source_[index]);
+  }
   [[nodiscard]] const std::vector<Band>& bands() const { return bands_; }
 
-  /// The place of a sphere in the vector that this was made from, and back.
+  /// The place of a sphere in the set that this was made from, and back.
   [[nodiscard]] unsigned source(unsigned index) const { return source_[index]; }
   [[nodiscard]] unsigned indexOf(unsigned source) const { return indexOf_[source]; }
 
 private:
+  const SphereSet& set_;
   std::vector<Sphere> spheres_;
   std::vector<Band> bands_;
   std::vector<unsigned> source_;

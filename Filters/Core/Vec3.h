@@ -47,6 +47,12 @@ template <typename T>
 }
 
 template <typename T>
+[[nodiscard]] constexpr bool operator==(Vec3<T> a, Vec3<T> b)
+{
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+template <typename T>
 [[nodiscard]] constexpr T dot(Vec3<T> a, Vec3<T> b)
 {
   return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -174,7 +174,7 @@ void tracePackets(const Fixture& f, RTCScene scene, unsigned mask, const std::ui
           loadLane(f.queries[16 * i + static_cast<std::size_t>(lane)], packet, lane);
           packet.ray.mask[lane] = mask;
         }
-        FrontQuery query{ {}, hidden, f.scene.spheres().data(), nullptr };
+        FrontQuery query{ {}, hidden, &f.scene.set().bricks().front(), nullptr };
         initRayQueryContext(query.embree, true);
         intersect16(valid, scene, query.embree, packet, hidden ? passSpheres : nullptr);
         benchmark::DoNotOptimize(packet);

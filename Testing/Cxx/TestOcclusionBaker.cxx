@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BruteForceVisibility.h"
 #include "Constants.h"
 #include "ErrorPilot.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
 #include "TestScenes.h"
+#include "TexelMap.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -156,10 +156,12 @@ TEST(OcclusionBaker, RaysEndAtTheMaximumDistance)
     settings.samplesPerTexel = 4096;
     return bake(spheres, settings);
   }();
+  const judge::Judge judge = judgeOf(spheres);
   for (int column = 0; column < 8; ++column)
   {
-    const double expected = bruteforce::texel(spheres, 0, 8, 0, column, 16, 64, 3.5).value;
-    const double error = std::sqrt(std::max(expected * (1 - expected), 1e-4) / 4096);
+    const double expected = judge.look(0, 8, 0, column, 16384, 3.5).value();
+    const double error =
+      std::sqrt(std::max(expected * (1 - expected), 1e-4) * (1.0 / 4096 + 1.0 / 16384));
     EXPECT_NEAR(texelValue(result, 0, po::texelIndex(8, 0, column)), expected, 5 * error);
   }
 }
@@ -189,14 +191,14 @@ TEST(OcclusionBaker, AGradientIsIntegratedAgainstTheCosine)
 
 TEST(OcclusionBaker, MatchesAnIndependentJudgeWhereSpheresOverlap)
 {
-  // Per texel |z| < 5 and the mean square of z near 1 or below; both estimates are stratified,
-  // their variances bounded by the binomial ones. Texels mostly inside are left to the dilation
-  // test.
+  // Per texel |z| < 5: the variance of the stratified estimate is at most the binomial one. Texels
+  // mostly inside are left to the dilation test.
   const std::vector<po::Sphere> spheres = mixedScene();
   constexpr int resolution = 6;
   constexpr int samples = 1600;
   po::BakeSettings settings = floatSettings(resolution, samples);
   const po::BakeResult result = bake(spheres, settings);
+  const judge::Judge judge = judgeOf(spheres);
   double bias = 0;
   int texels = 0;
   for (std::size_t id = 0; id < spheres.size(); id += 6)
@@ -205,19 +207,17 @@ TEST(OcclusionBaker, MatchesAnIndependentJudgeWhereSpheresOverlap)
     {
       for (int column = 0; column < resolution; ++column)
       {
-        const bruteforce::Texel judge =
-          bruteforce::texel(spheres, id, resolution, row, column, 16, 64);
-        if (judge.outsideShare < 0.3)
+        const judge::Texel truth = judge.look(id, resolution, row, column, 16384);
+        if (truth.outsideShare() < 0.3)
         {
           continue;
         }
-        const double rays = samples * judge.outsideShare;
-        const double variance = std::max(judge.value * (1 - judge.value), 0.002);
-        // The judge's fixed 16 x 16 points see the rim of an overlap coarsely: half a percent.
-        const double error = std::sqrt(variance * (1 / rays + 1 / (16384 * judge.outsideShare)));
+        const double rays = samples * truth.outsideShare();
+        const double variance = std::max(truth.value() * (1 - truth.value()), 0.002);
+        const double error = std::sqrt(variance * (1 / rays + 1.0 / truth.outside));
         const double value = texelValue(result, id, po::texelIndex(resolution, row, column));
-        EXPECT_NEAR(value, judge.value, 5 * error + 0.005) << id << " " << row << " " << column;
-        bias += value - judge.value;
+        EXPECT_NEAR(value, truth.value(), 5 * error) << id << " " << row << " " << column;
+        bias += value - truth.value();
         ++texels;
       }
     }

@@ -12,7 +12,7 @@ namespace
 po::Overlaps overlapsOf(const std::vector<po::Sphere>& spheres, unsigned id)
 {
   po::Overlaps result;
-  po::OverlapFinder(spheres).find(id, result);
+  po::OverlapFinder(po::SphereSet(spheres)).find(id, result);
   return result;
 }
 
@@ -59,7 +59,8 @@ TEST(OverlapFinder, FindsWhatBruteForceFindsForRadiiOfOneToTenThousand)
     const double radius = std::pow(10.0, -3 + 4 * random.uniform());
     spheres.push_back({ coordinate(), coordinate(), coordinate(), static_cast<float>(radius) });
   }
-  const po::OverlapFinder finder(spheres);
+  const po::SphereSet set(spheres);
+  const po::OverlapFinder finder(set);
   po::Overlaps overlaps;
   std::size_t cuts = 0;
   for (unsigned i = 0; i < spheres.size(); ++i)
@@ -93,7 +94,8 @@ TEST(OverlapFinder, FindsTheNearestThatComeWithinReach)
     const double radius = std::pow(10.0, -2 + 2.5 * random.uniform());
     spheres.push_back({ coordinate(), coordinate(), coordinate(), static_cast<float>(radius) });
   }
-  const po::OverlapFinder finder(spheres);
+  const po::SphereSet set(spheres);
+  const po::OverlapFinder finder(set);
   for (unsigned id = 0; id < 50; ++id)
   {
     const float reach = 2 * spheres[id].radius;

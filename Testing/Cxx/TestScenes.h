@@ -8,6 +8,7 @@
 #include "Random.h"
 #include "Sphere.h"
 #include "SphereCloud.h"
+#include "VisibilityJudge.h"
 
 #include <cmath>
 #include <cstddef>
@@ -19,6 +20,17 @@ inline po::SphereCloud cloudOf(const std::vector<po::Sphere>& spheres)
   return po::makeSphereCloud(
     spheres.size(), [&](std::size_t i) { return spheres[i].center().as<double>(); },
     [&](std::size_t i) { return static_cast<double>(spheres[i].radius); });
+}
+
+/// Judges the same spheres in double precision.
+inline judge::Judge judgeOf(const std::vector<po::Sphere>& spheres)
+{
+  std::vector<judge::Ball> balls;
+  for (const po::Sphere& s : spheres)
+  {
+    balls.push_back({ s.center().as<double>(), static_cast<double>(s.radius) });
+  }
+  return judge::Judge(balls);
 }
 
 inline po::BakeSettings floatSettings(int resolution, int samples)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "BruteForceVisibility.h"
 #include "Constants.h"
 #include "EstimateDifference.h"
 #include "OcclusionBaker.h"
@@ -70,25 +69,26 @@ TEST(SweepEstimator, AClosedShellIsDarkInside)
 
 TEST(SweepEstimator, AgreesWithAnIndependentJudge)
 {
-  // Brute force in double precision on a few particles of a scene with overlaps: 32 particles x 36
-  // texels; the judge has 16,384 rays a texel, its error is below 0.004.
+  // Double precision on a few particles of a scene with overlaps: 15 particles x 36 texels; the
+  // judge has 16,384 rays a texel, its error is below 0.004.
   const std::vector<po::Sphere> spheres = mixedScene();
   const po::SphereCloud cloud = cloudOf(spheres);
   const Estimates ours = estimateAll(sweepOf(4096), po::BakeScene(cloud), floatSettings(6, 1));
-  Estimates judge = ours;
-  for (std::size_t i = 0; i < judge.values.size(); ++i)
+  const judge::Judge rays = judgeOf(spheres);
+  Estimates found = ours;
+  for (std::size_t i = 0; i < found.values.size(); ++i)
   {
     const std::size_t id = i / 36;
-    judge.shares[i] = 0;
+    found.shares[i] = 0;
     if (id % 4 == 0)
     {
-      const bruteforce::Texel texel = bruteforce::texel(
-        spheres, id, 6, static_cast<int>(i / 6 % 6), static_cast<int>(i % 6), 16, 64);
-      judge.values[i] = static_cast<float>(texel.value);
-      judge.shares[i] = static_cast<float>(texel.outsideShare);
+      const judge::Texel texel =
+        rays.look(id, 6, static_cast<int>(i / 6 % 6), static_cast<int>(i % 6), 16384);
+      found.values[i] = static_cast<float>(texel.value());
+      found.shares[i] = static_cast<float>(texel.outsideShare());
     }
   }
-  const Difference difference = compare(ours, judge, 6);
+  const Difference difference = compare(ours, found, 6);
   EXPECT_LT(difference.rms, 0.01);
   EXPECT_LT(std::abs(difference.bias), 0.002);
 }

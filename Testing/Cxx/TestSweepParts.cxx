@@ -202,6 +202,29 @@ TEST(ClosedCells, SpheresMayReachBeyondAllIntegers)
   EXPECT_FALSE(cells.hides({ 0.5f, 1e12f, 3, 1e12f, 1 }));
 }
 
+TEST(ClosedCells, WhatSticksOutIsNotHidden)
+{
+  // Four occluders close all cells, the last one at height 2; receivers have radii up to 1.
+  po::ClosedCells cells;
+  const po::DepthTile tile{ 0, 0, 8, nullptr, nullptr };
+  cells.begin(tile, 1);
+  unsigned index = 0;
+  for (const float x : { -4.0f, 12.0f })
+  {
+    for (const float y : { -4.0f, 12.0f })
+    {
+      EXPECT_FALSE(cells.hidesAllBelow(-100));
+      cells.close({ x, y, 5 - static_cast<float>(index), 12, index });
+      ++index;
+    }
+  }
+  EXPECT_FALSE(cells.hidesAllBelow(1.01f));
+  EXPECT_TRUE(cells.hidesAllBelow(0.99f));
+  EXPECT_FALSE(cells.hides({ 4, 4, 4.5f, 1, 9 }));
+  EXPECT_FALSE(cells.hides({ 9.5f, 9.5f, 1.01f, 1, 9 }));
+  EXPECT_TRUE(cells.hides({ 9.5f, 9.5f, 0.99f, 1, 9 }));
+}
+
 TEST(TexelExposure, TellsThePointsOutsideAllCaps)
 {
   const po::SweepTexels texels(16);
@@ -237,7 +260,7 @@ TEST(VisibilityRecords, ThreadsMayMeetASphereAtOnce)
   // on only with a finished answer, and all get the same.
   const po::SphereCloud cloud = cloudOf(syntheticScene(po::SyntheticFamily::Overlap, 4000));
   const po::BakeScene scene(cloud);
-  const po::SweepScene order(scene.rays.spheres());
+  const po::SweepScene order(scene.rays.set());
   const po::SweepTexels texels(16);
   const std::vector<std::uint8_t> listed(order.size(), 1);
   const std::vector<std::uint8_t> alone(order.size(), 0);
