@@ -78,4 +78,47 @@ void fillLayers(const SphereRenderer& renderer, const OcclusionTextures& texture
     layerFrom<vtkTypeInt64Array>(image, "id", firstRow),
     [&](std::uint32_t sphere) { return sphere == SphereScene::None ? -1 : particles[sphere]; });
 }
+
+vtkSmartPointer<vtkImageData> traceLayers(SphereRenderer& renderer, const Camera& camera,
+  const Matrix4& modelToWorld, const Style& style, int samples)
+{
+  constexpr int pixelsPerBand = 1 << 22;
+  vtkSmartPointer<vtkImageData> layers = newLayers(camera.width, camera.height);
+  const int rows = std::max(1, pixelsPerBand / camera.width);
+  for (int first = 0; first < camera.height; first += rows)
+  {
+    const Camera band = bandOf(camera, first, std::min(rows, camera.height - first));
+    if (!renderer.trace(band, modelToWorld))
+    {
+      return vtkSmartPointer<vtkImageData>::New();
+    }
+    renderer.shade(style);
+    renderer.refine(samples);
+    fillLayers(renderer, style.textures, first, layers);
+  }
+  return layers;
+}
+
+vtkImageData* LastLayers::update(
+  const SphereRenderer& renderer, const OcclusionTextures& textures, std::uint64_t version)
+{
+  if (!renderer.isShaded())
+  {
+    layers_ = vtkSmartPointer<vtkImageData>::New();
+    version_ = 0;
+  }
+  else if (version_ != version)
+  {
+    layers_ = newLayers(renderer.frame().width, renderer.frame().height);
+    fillLayers(renderer, textures, 0, layers_);
+    version_ = version;
+  }
+  return layers_;
+}
+
+void LastLayers::forget()
+{
+  layers_ = nullptr;
+  version_ = 0;
+}
 }

@@ -54,42 +54,30 @@ public:
   };
 
   ///@{
-  /// Name of the point array of radii, in world units; of an array named "diameter" half the value.
-  /// Empty (default): the first of radius, Radius, rad, r, diameter that exists, otherwise none.
-  /// "(none)": no array, all radii are ConstantRadius.
+  /// RadiusArray: name of the point array of radii, in world units; of an array named "diameter"
+  /// half the value. Empty (default): the first of radius, Radius, rad, r, diameter that exists,
+  /// otherwise none. "(none)": no array, all radii are ConstantRadius.
+  /// RadiusScale: factor on every radius, positive. Default 1.
+  /// ConstantRadius: radius of all spheres where no array is used, in world units. 0 (default):
+  /// half the median distance between nearest neighbours.
   vtkSetStringMacro(RadiusArray);
   vtkGetStringMacro(RadiusArray);
-  ///@}
-
-  ///@{
-  /// Factor on every radius, positive. Default 1.
   vtkSetMacro(RadiusScale, double);
   vtkGetMacro(RadiusScale, double);
-  ///@}
-
-  ///@{
-  /// Radius of all spheres where no array is used, in world units. 0 (default): half the median
-  /// distance between nearest neighbours.
   vtkSetMacro(ConstantRadius, double);
   vtkGetMacro(ConstantRadius, double);
   ///@}
 
   ///@{
-  /// What makes up the brightness of a pixel. Default BOTH.
+  /// ShadingMode: what makes up the brightness of a pixel. Default BOTH.
+  /// OcclusionOnDiffuse: in mode BOTH occlusion scales the ambient term, and with this the diffuse
+  /// term too. Default on, since VTK's ambient coefficient is 0 by default.
+  /// Shadows: hard shadows of this mapper's spheres on each other, from each light. Default off.
   vtkSetClampMacro(ShadingMode, int, DIRECT_LIGHT, BOTH);
   vtkGetMacro(ShadingMode, int);
-  ///@}
-
-  ///@{
-  /// In mode BOTH occlusion scales the ambient term, and with this the diffuse term too. Default
-  /// on, since VTK's ambient coefficient is 0 by default.
   vtkSetMacro(OcclusionOnDiffuse, bool);
   vtkGetMacro(OcclusionOnDiffuse, bool);
   vtkBooleanMacro(OcclusionOnDiffuse, bool);
-  ///@}
-
-  ///@{
-  /// Hard shadows that the spheres of this mapper cast on each other, from each light. Default off.
   vtkSetMacro(Shadows, bool);
   vtkGetMacro(Shadows, bool);
   vtkBooleanMacro(Shadows, bool);
@@ -112,24 +100,20 @@ public:
   ///@}
 
   ///@{
-  /// Rays a pixel, 1 to 256, each through another place of it, for smooth edges. Depth stays that
-  /// of the pixel's centre. The rim of a sphere is mixed with what was drawn before. Not for
-  /// translucent spheres. Default 1.
+  /// SamplesPerPixel: rays a pixel, 1 to 256, each through another place of it, for smooth edges.
+  /// Depth stays that of the pixel's centre. The rim of a sphere is mixed with what was drawn
+  /// before. Not for translucent spheres. Default 1.
+  /// Progressive: each time the same picture is rendered again one ray a pixel is added, in place
+  /// of all of them the first time. While there are more to add, UpdateEvent is invoked. Default
+  /// off.
+  /// InteractiveRate: frames a second to reach while the window asks for speed (its
+  /// DesiredUpdateRate is at least 1, as while the user drags): frames become as coarse as that
+  /// takes. 0: never coarse. Default 15.
   vtkSetClampMacro(SamplesPerPixel, int, 1, 256);
   vtkGetMacro(SamplesPerPixel, int);
-  ///@}
-
-  ///@{
-  /// Each time the same picture is rendered again one ray a pixel is added, in place of all of them
-  /// the first time. While there are more to add, UpdateEvent is invoked. Default off.
   vtkSetMacro(Progressive, bool);
   vtkGetMacro(Progressive, bool);
   vtkBooleanMacro(Progressive, bool);
-  ///@}
-
-  ///@{
-  /// Frames a second to reach while the window asks for speed (its DesiredUpdateRate is at least 1,
-  /// as while the user drags): frames become as coarse as that takes. 0: never coarse. Default 15.
   vtkSetClampMacro(InteractiveRate, double, 0, 1000);
   vtkGetMacro(InteractiveRate, double);
   ///@}
@@ -137,9 +121,8 @@ public:
   /// The last frame that was drawn, rows from the bottom, with the point arrays RGBA (uint8), Z
   /// (float32, distance along the eye ray or, in parallel projection, the view direction, in world
   /// units; +infinity on background), AO (float32), N (float32[3], world-space unit normal) and id
-  /// (int64, point, -1 on background). An empty image where
-  /// no frame of the present spheres has been drawn. The image belongs to
-  /// the mapper and does not follow later frames.
+  /// (int64, point, -1 on background). An empty image where no frame of the present spheres has
+  /// been drawn. The image belongs to the mapper and does not follow later frames.
   vtkImageData* GetLayers();
 
   /// The same layers of the renderer's view at another size, 1 to 65,536 pixels a side, traced by
@@ -151,13 +134,11 @@ public:
   /// Gives back the memory of spheres, scene and frame; the next frame builds them anew.
   void ReleaseSpheres();
 
-  /// Scenes of spheres in this process: mappers of equal spheres share one.
-  static vtkIdType GetNumberOfScenes();
-
   ///@{
   /// What was done: spheres that are there, and those of them that are shown; of the last frame
   /// that was traced the rays (primary and shadow), tiles that were skipped and shadow rays that
-  /// were saved; frames traced so far.
+  /// were saved; frames traced so far. Seconds are those that each step took the last time it was
+  /// done. Scenes are those of spheres in this process: mappers of equal spheres share one.
   vtkIdType GetNumberOfSpheres();
   vtkIdType GetNumberOfShownSpheres();
   vtkIdType GetNumberOfRays();
@@ -168,10 +149,7 @@ public:
   vtkIdType GetNumberOfTracedShadows(); ///< shadow masks of single lights, traced so far
   int GetNumberOfSamples();             ///< rays a pixel in the last frame
   int GetNumberOfLayers();              ///< of spheres, one behind the other, in the last frame
-  ///@}
-
-  ///@{
-  /// Seconds that each step took the last time it was done.
+  static vtkIdType GetNumberOfScenes();
   double GetBuildSeconds();
   double GetTraceSeconds();
   double GetShadowSeconds();
@@ -187,7 +165,7 @@ public:
   void ReleaseGraphicsResources(vtkWindow* window) override;
   bool HasOpaqueGeometry() override;
   bool HasTranslucentPolygonalGeometry() override;
-  bool GetSupportsSelection() override { return true; }
+  bool GetSupportsSelection() override;
 
 protected:
   vtkRayTracedSphereMapper();
@@ -200,15 +178,10 @@ private:
   void operator=(const vtkRayTracedSphereMapper&) = delete;
 
   void UpdateSpheres();
-  void UpdateColors(vtkActor* actor);
-  void UpdateHidden(vtkActor* actor);
+  bool Prepare(vtkActor* actor);
   void RenderSpheres(vtkRenderer* renderer, vtkActor* actor);
-  void Shade(vtkRenderer* renderer, vtkActor* actor, bool refine);
   void Draw(vtkRenderer* renderer, vtkActor* actor);
-  void DrawForSelection(vtkRenderer* renderer, vtkActor* actor);
-  bool IsInteractive(vtkRenderer* renderer);
-  vtkSmartPointer<vtkImageData> TraceLayers(
-    vtkRenderer* renderer, vtkActor* actor, int width, int height, int pixelsPerBand);
+  void Shade(vtkRenderer* renderer, vtkActor* actor);
 
   char* RadiusArray = nullptr;
   double RadiusScale = 1;

@@ -90,4 +90,15 @@ void BlockLooks::apply(vtkPolyData& points, vtkRayTracedSphereMapper& mapper) co
       [&, &opacity = opacity](unsigned id) { mapper.SetBlockOpacity(id, opacity); });
   }
 }
+
+void AppliedBlockLooks::update(vtkRayTracedSphereMapper& mapper)
+{
+  vtkPolyData* points = mapper.GetInput();
+  const std::pair<vtkPolyData*, vtkMTimeType> source{ points, points ? points->GetMTime() : 0 };
+  if (points && (looks_.isNew() || source != points_))
+  {
+    looks_.use().apply(*points, mapper);
+    points_ = source;
+  }
+}
 }

@@ -4,6 +4,10 @@
 
 // Looks that the user gives to blocks by selectors, as ParaView's Multiblock Inspector does.
 
+#include "Tracked.h"
+
+#include "vtkType.h"
+
 #include <array>
 #include <string>
 #include <utility>
@@ -28,6 +32,19 @@ struct BlockLooks
 
   /// Sets the mapper's styles of blocks; none where the points have no hierarchy.
   void apply(vtkPolyData& points, vtkRayTracedSphereMapper& mapper) const;
+};
+
+/// Looks on a mapper, set again when they or its points have changed.
+class AppliedBlockLooks
+{
+public:
+  [[nodiscard]] BlockLooks& change() { return looks_.change(); }
+
+  void update(vtkRayTracedSphereMapper& mapper);
+
+private:
+  Tracked<BlockLooks> looks_;
+  std::pair<vtkPolyData*, vtkMTimeType> points_{}; ///< that the mapper's styles are for
 };
 }
 

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRayTracedSphereRepresentation.h"
 
-#include "BakedTextures.h"
 #include "BlockLooks.h"
-#include "BlockTable.h"
-#include "Blocks.h"
 #include "ControllerGroup.h"
+#include "CropSettings.h"
+#include "GatheredParticles.h"
+#include "LayersFile.h"
 #include "ParticleDelivery.h"
-#include "RefinementTimer.h"
+#include "Refinement.h"
+#include "SilhouetteVisibility.h"
 #include "SphereInput.h"
+#include "Tracked.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
-#include "vtkCompositeDataSet.h"
 #include "vtkDataAssemblyUtilities.h"
-#include "vtkDataSet.h"
-#include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
@@ -25,160 +22,44 @@
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVRenderView.h"
-#include "vtkPlane.h"
-#include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkProcessModule.h"
-#include "vtkProperty.h"
 #include "vtkRayTracedSphereMapper.h"
-#include "vtkRenderedLayersWriter.h"
 #include "vtkRenderer.h"
-#include "vtkScalarsToColors.h"
+#include "vtkSmartPointer.h"
+#include "vtkTimeStamp.h"
+#include "vtkWeakPointer.h"
 
-#include <array>
 #include <string>
-#include <utility>
-#include <vector>
 
 vtkStandardNewMacro(vtkRayTracedSphereRepresentation);
 
-/// What the panel's properties say about cropping; turned into the mapper's planes and ranges.
-struct vtkRayTracedSphereRepresentation::Cropping
+struct vtkRayTracedSphereRepresentation::Internals
 {
-  struct Range
+  explicit Internals(vtkRayTracedSphereMapper* mapper)
+    : Refinement(mapper)
   {
-    std::string Array;
-    int Component;
-    double Low, High;
-  };
+    vtkMath::UninitializeBounds(this->Bounds);
+  }
 
-  std::string Array;
-  int Component = -1;
-  std::array<double, 2> Limits{ -1e300, 1e300 };
-  std::vector<Range> MoreRanges;
-  bool Plane = false, Box = false;
-  std::array<double, 3> PlaneOrigin{ 0, 0, 0 }, PlaneNormal{ 0, 0, 1 };
-  std::array<double, 3> BoxOrigin{ 0, 0, 0 }, BoxSize{ 1, 1, 1 };
-  bool IsNew = true;
+  vtkSmartPointer<vtkPolyData> Particles;
+  vtkSmartPointer<vtkDataObject> Piece; ///< the particles as they are delivered
+  po::DeliveredParticles Delivered;
+  std::string RadiusArray;
+  double ConstantRadius = 0;
+  double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
+  vtkTimeStamp BoundsTime;
+  vtkTimeStamp RadiusTime; ///< when a parameter of the radii was last set
+  po::Tracked<po::CropSettings> Crop;
+  po::AppliedBlockLooks Blocks;
+  po::LayersFile Layers;
+  po::Refinement Refinement;
+  vtkWeakPointer<vtkPVRenderView> View;
 };
-
-struct vtkRayTracedSphereRepresentation::Blocks
-{
-  po::BlockLooks Looks;
-  std::pair<vtkPolyData*, vtkMTimeType> Applied; ///< the points that the mapper's styles are for
-  bool IsNew = true;
-};
-
-struct vtkRayTracedSphereRepresentation::Refinement
-{
-  std::unique_ptr<po::RefinementTimer> Timer;
-  vtkNew<vtkCallbackCommand> Command; ///< called when the mapper has more to add
-};
-
-namespace
-{
-/// The points of a data set; those of an image or a rectilinear grid are computed.
-vtkSmartPointer<vtkPointSet> pointsOf(vtkDataSet* data)
-{
-  if (auto* points = vtkPointSet::SafeDownCast(data))
-  {
-    return points;
-  }
-  auto computed = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(data->GetNumberOfPoints());
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    points->SetPoint(i, data->GetPoint(i));
-  }
-  computed->SetPoints(points);
-  computed->GetPointData()->ShallowCopy(data->GetPointData());
-  computed->GetFieldData()->ShallowCopy(data->GetFieldData());
-  return computed;
-}
-
-void addPlane(vtkRayTracedSphereMapper* mapper, const double* origin, const double* normal)
-{
-  vtkNew<vtkPlane> plane;
-  plane->SetOrigin(origin);
-  plane->SetNormal(normal);
-  mapper->AddClippingPlane(plane);
-}
-
-/// The six planes of a box along the axes.
-void addBox(vtkRayTracedSphereMapper* mapper, const std::array<double, 3>& origin,
-  const std::array<double, 3>& size)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    for (const double end : { 0.0, 1.0 })
-    {
-      std::array<double, 3> point = origin, normal{ 0, 0, 0 };
-      point[axis] += end * size[axis];
-      normal[axis] = end == 0 ? 1 : -1;
-      addPlane(mapper, point.data(), normal.data());
-    }
-  }
-}
-
-/// Which points are of which block.
-void keepBlocks(vtkCompositeDataSet& data, const std::vector<vtkSmartPointer<vtkPointSet>>& blocks,
-  vtkPolyData& points)
-{
-  const std::vector<unsigned> indices = po::flatIndicesOfBlocks(&data);
-  po::BlockTable table;
-  vtkIdType first = 0;
-  for (std::size_t i = 0; i < blocks.size(); ++i)
-  {
-    table.push_back({ indices[i], first });
-    first += blocks[i]->GetNumberOfPoints();
-  }
-  po::setBlockTable(points, table);
-  po::keepHierarchy(data, points);
-}
-
-/// The flag is for views alone, but no event tells of it.
-struct ScreenshotAccess : vtkPVRenderView
-{
-  static bool isCapturing(vtkPVRenderView& view)
-  {
-    bool (vtkPVView::*flag)() = &ScreenshotAccess::GetInCaptureScreenshot;
-    return (view.*flag)();
-  }
-};
-
-/// All blocks that have points.
-std::vector<vtkSmartPointer<vtkPointSet>> blocksOf(vtkDataObject* data)
-{
-  std::vector<vtkSmartPointer<vtkPointSet>> blocks;
-  for (vtkDataSet* block : po::blocksWithPoints(data))
-  {
-    blocks.push_back(pointsOf(block));
-  }
-  return blocks;
-}
-}
 
 vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
-  : Delivered(std::make_unique<po::DeliveredParticles>())
-  , Crop(std::make_unique<Cropping>())
-  , BlockStyles(std::make_unique<Blocks>())
-  , Refine(std::make_unique<Refinement>())
+  : Internal(std::make_unique<Internals>(this->Mapper))
 {
-  vtkMath::UninitializeBounds(this->Bounds);
   this->Actor->SetMapper(this->Mapper);
-  this->Refine->Command->SetClientData(this);
-  this->Refine->Command->SetCallback(
-    [](vtkObject*, unsigned long, void* self, void*)
-    {
-      auto* me = static_cast<vtkRayTracedSphereRepresentation*>(self);
-      if (me->Refine->Timer)
-      {
-        me->Refine->Timer->start();
-      }
-    });
-  this->Mapper->AddObserver(vtkCommand::UpdateEvent, this->Refine->Command);
   this->Silhouettes->AddActor(this->Actor);
   this->Silhouettes->LineVisibilityOff();
 }
@@ -192,9 +73,9 @@ bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
   {
     return false;
   }
-  this->View = renderView;
+  this->Internal->View = renderView;
   renderView->GetRenderer()->AddActor(this->Actor);
-  this->Refine->Timer = std::make_unique<po::RefinementTimer>(renderView);
+  this->Internal->Refinement.begin(renderView);
   renderView->GetRenderer()->AddViewProp(this->Silhouettes);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::AddToView(view);
@@ -208,7 +89,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
     return false;
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
-  this->Refine->Timer.reset();
+  this->Internal->Refinement.end();
   renderView->GetRenderer()->RemoveViewProp(this->Silhouettes);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   this->ReleaseMemory();
@@ -227,21 +108,16 @@ int vtkRayTracedSphereRepresentation::FillInputPortInformation(int, vtkInformati
 int vtkRayTracedSphereRepresentation::RequestData(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  const auto blocks = blocksOf(vtkDataObject::GetData(inputVector[0], 0));
   std::string warning;
-  this->Particles = po::mergeParticles({ blocks.begin(), blocks.end() }, warning);
+  this->Internal->Particles =
+    po::gatherParticles(vtkDataObject::GetData(inputVector[0], 0), warning);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);
   }
-  auto* composite = vtkCompositeDataSet::SafeDownCast(vtkDataObject::GetData(inputVector[0], 0));
-  if (composite)
-  {
-    keepBlocks(*composite, blocks, *this->Particles);
-  }
   this->ResolveRadii();
   const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
-  this->Piece = po::pieceToDeliver(this->Particles, group.rank(), group.size());
+  this->Internal->Piece = po::pieceToDeliver(this->Internal->Particles, group.rank(), group.size());
   return this->Superclass::RequestData(request, inputVector, outputVector);
 }
 
@@ -249,10 +125,10 @@ int vtkRayTracedSphereRepresentation::RequestData(
 void vtkRayTracedSphereRepresentation::ResolveRadii()
 {
   const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
-  po::RadiusSettings radii{ this->RadiusArray, 1.0, this->ConstantRadius };
+  po::RadiusSettings radii{ this->Internal->RadiusArray, 1.0, this->Internal->ConstantRadius };
   if (group.size() > 1)
   {
-    radii = po::resolveRadii(*this->Particles, radii, group);
+    radii = po::resolveRadii(*this->Internal->Particles, radii, group);
   }
   this->Mapper->SetRadiusArray(radii.array.c_str());
   this->Mapper->SetConstantRadius(radii.constant);
@@ -271,55 +147,56 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
   }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
-    std::string warning;
-    this->Mapper->SetInputDataObject(
-      this->Delivered->update(vtkPVView::GetDeliveredPiece(inInfo, this), warning));
-    if (!warning.empty())
-    {
-      vtkWarningMacro(<< warning);
-    }
-    this->UpdateColoring();
-    this->UpdateCropping();
-    this->UpdateRefinement();
-    this->UpdateSilhouettes();
+    this->PrepareFrame(inInfo);
   }
   return 1;
 }
 
-void vtkRayTracedSphereRepresentation::UpdateSilhouettes()
-{
-  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  const bool alone = !processes || processes->GetNumberOfProcesses() == 1;
-  if (!alone && this->Silhouettes->GetLineVisibility() && this->Silhouettes->GetVisibility() &&
-    processes->GetLocalProcessId() == 0)
-  {
-    vtkWarningMacro("Several processes draw these spheres, and none knows all depths before the "
-                    "picture is composited: use Render View (Silhouettes) for lines.");
-  }
-  this->Silhouettes->SetVisibility(alone && this->Actor->GetVisibility());
-}
-
 void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
 {
-  if (this->Particles)
+  if (this->Internal->Particles)
   {
-    vtkPVView::SetPiece(inInfo, this, this->Piece);
+    vtkPVView::SetPiece(inInfo, this, this->Internal->Piece);
     this->UpdateBounds();
   }
   vtkNew<vtkMatrix4x4> matrix;
   this->Actor->GetMatrix(matrix);
-  vtkPVRenderView::SetGeometryBounds(inInfo, this, this->Bounds, matrix);
+  vtkPVRenderView::SetGeometryBounds(inInfo, this, this->Internal->Bounds, matrix);
+}
+
+void vtkRayTracedSphereRepresentation::PrepareFrame(vtkInformation* inInfo)
+{
+  std::string warning;
+  this->Mapper->SetInputDataObject(
+    this->Internal->Delivered.update(vtkPVView::GetDeliveredPiece(inInfo, this), warning));
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
+  this->UpdateColoring();
+  this->Internal->Blocks.update(*this->Mapper);
+  if (this->Internal->Crop.isNew())
+  {
+    this->Internal->Crop.use().apply(*this->Mapper);
+  }
+  this->Internal->Refinement.prepare(vtkPVRenderView::SafeDownCast(this->GetView()));
+  warning = po::updateVisibility(*this->Silhouettes, *this->Actor);
+  if (!warning.empty())
+  {
+    vtkWarningMacro(<< warning);
+  }
 }
 
 void vtkRayTracedSphereRepresentation::UpdateBounds()
 {
   // Not each time: the mapper reads the spheres again when it changes between the particles and the
   // delivered copy of them.
-  if (this->BoundsTime < this->Particles->GetMTime() || this->BoundsTime < this->RadiusTime)
+  if (this->Internal->BoundsTime < this->Internal->Particles->GetMTime() ||
+    this->Internal->BoundsTime < this->Internal->RadiusTime)
   {
-    this->Mapper->SetInputDataObject(this->Particles);
-    this->Mapper->GetBounds(this->Bounds);
-    this->BoundsTime.Modified();
+    this->Mapper->SetInputDataObject(this->Internal->Particles);
+    this->Mapper->GetBounds(this->Internal->Bounds);
+    this->Internal->BoundsTime.Modified();
   }
 }
 
@@ -342,51 +219,7 @@ void vtkRayTracedSphereRepresentation::ReleaseMemory()
 {
   this->Mapper->ReleaseSpheres();
   this->Mapper->SetInputDataObject(nullptr);
-  *this->Delivered = po::DeliveredParticles();
-}
-
-void vtkRayTracedSphereRepresentation::UpdateCropping()
-{
-  vtkPolyData* points = this->Mapper->GetInput();
-  const std::pair<vtkPolyData*, vtkMTimeType> source{ points, points ? points->GetMTime() : 0 };
-  if (points && (this->BlockStyles->IsNew || source != this->BlockStyles->Applied))
-  {
-    this->BlockStyles->Looks.apply(*points, *this->Mapper);
-    this->BlockStyles->Applied = source;
-    this->BlockStyles->IsNew = false;
-  }
-  Cropping& crop = *this->Crop;
-  if (!crop.IsNew)
-  {
-    return;
-  }
-  crop.IsNew = false;
-  this->Mapper->RemoveAllCropRanges();
-  this->Mapper->RemoveAllClippingPlanes();
-  if (!crop.Array.empty())
-  {
-    this->Mapper->AddCropRange(crop.Array.c_str(), crop.Component, crop.Limits[0], crop.Limits[1]);
-  }
-  for (const Cropping::Range& range : crop.MoreRanges)
-  {
-    this->Mapper->AddCropRange(range.Array.c_str(), range.Component, range.Low, range.High);
-  }
-  if (crop.Plane)
-  {
-    addPlane(this->Mapper, crop.PlaneOrigin.data(), crop.PlaneNormal.data());
-  }
-  if (crop.Box)
-  {
-    addBox(this->Mapper, crop.BoxOrigin, crop.BoxSize);
-  }
-}
-
-void vtkRayTracedSphereRepresentation::UpdateRefinement()
-{
-  // Only what this process alone draws on a screen can be refined step by step.
-  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
-  this->Mapper->SetProgressive(view && !ScreenshotAccess::isCapturing(*view) &&
-    view->GetInteractor() && !view->GetUseDistributedRenderingForRender());
+  this->Internal->Delivered = po::DeliveredParticles();
 }
 
 void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
@@ -404,50 +237,25 @@ void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 
 void vtkRayTracedSphereRepresentation::SetRadiusArray(const char* name)
 {
-  this->RadiusArray = name ? name : "";
+  this->Internal->RadiusArray = name ? name : "";
   this->Mapper->SetRadiusArray(name);
-  this->RadiusTime.Modified();
+  this->Internal->RadiusTime.Modified();
   this->MarkModified();
 }
 
 void vtkRayTracedSphereRepresentation::SetRadiusScale(double scale)
 {
   this->Mapper->SetRadiusScale(scale);
-  this->RadiusTime.Modified();
+  this->Internal->RadiusTime.Modified();
   this->MarkModified();
 }
 
 void vtkRayTracedSphereRepresentation::SetConstantRadius(double radius)
 {
-  this->ConstantRadius = radius;
+  this->Internal->ConstantRadius = radius;
   this->Mapper->SetConstantRadius(radius);
-  this->RadiusTime.Modified();
+  this->Internal->RadiusTime.Modified();
   this->MarkModified();
-}
-
-void vtkRayTracedSphereRepresentation::SetShadingMode(int mode)
-{
-  this->Mapper->SetShadingMode(mode);
-}
-
-void vtkRayTracedSphereRepresentation::SetOcclusionOnDiffuse(bool on)
-{
-  this->Mapper->SetOcclusionOnDiffuse(on);
-}
-
-void vtkRayTracedSphereRepresentation::SetShadows(bool on)
-{
-  this->Mapper->SetShadows(on);
-}
-
-void vtkRayTracedSphereRepresentation::SetSamplesPerPixel(int samples)
-{
-  this->Mapper->SetSamplesPerPixel(samples);
-}
-
-void vtkRayTracedSphereRepresentation::SetInteractiveRate(double framesPerSecond)
-{
-  this->Mapper->SetInteractiveRate(framesPerSecond);
 }
 
 // Cropping takes effect when the view is rendered next; nothing is updated for it.
@@ -455,14 +263,12 @@ void vtkRayTracedSphereRepresentation::SetInteractiveRate(double framesPerSecond
 void vtkRayTracedSphereRepresentation::AddCropRange(
   const char* array, int component, double low, double high)
 {
-  this->Crop->MoreRanges.push_back({ array ? array : "", component, low, high });
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().moreRanges.push_back({ array ? array : "", component, low, high });
 }
 
 void vtkRayTracedSphereRepresentation::RemoveAllCropRanges()
 {
-  this->Crop->MoreRanges.clear();
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().moreRanges.clear();
 }
 
 void vtkRayTracedSphereRepresentation::SetCropArray(
@@ -470,56 +276,49 @@ void vtkRayTracedSphereRepresentation::SetCropArray(
 {
   const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
   const bool isOne = name && std::string(name) != po::RadiusSettings::NoArray;
-  this->Crop->Array = ofPoints && isOne ? name : "";
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().range.array = ofPoints && isOne ? name : "";
 }
 
 void vtkRayTracedSphereRepresentation::SetCropComponent(int component)
 {
-  this->Crop->Component = component;
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().range.component = component;
 }
 
 void vtkRayTracedSphereRepresentation::SetCropRange(double low, double high)
 {
-  this->Crop->Limits = { low, high };
-  this->Crop->IsNew = true;
+  po::CropSettings& crop = this->Internal->Crop.change();
+  crop.range.low = low;
+  crop.range.high = high;
 }
 
 void vtkRayTracedSphereRepresentation::SetCropPlane(bool on)
 {
-  this->Crop->Plane = on;
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().plane = on;
 }
 
 void vtkRayTracedSphereRepresentation::SetCropPlaneOrigin(double x, double y, double z)
 {
-  this->Crop->PlaneOrigin = { x, y, z };
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().planeOrigin = { x, y, z };
 }
 
 void vtkRayTracedSphereRepresentation::SetCropPlaneNormal(double x, double y, double z)
 {
-  this->Crop->PlaneNormal = { x, y, z };
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().planeNormal = { x, y, z };
 }
 
 void vtkRayTracedSphereRepresentation::SetCropBox(bool on)
 {
-  this->Crop->Box = on;
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().box = on;
 }
 
 void vtkRayTracedSphereRepresentation::SetCropBoxOrigin(double x, double y, double z)
 {
-  this->Crop->BoxOrigin = { x, y, z };
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().boxOrigin = { x, y, z };
 }
 
 void vtkRayTracedSphereRepresentation::SetCropBoxSize(double x, double y, double z)
 {
-  this->Crop->BoxSize = { x, y, z };
-  this->Crop->IsNew = true;
+  this->Internal->Crop.change().boxSize = { x, y, z };
 }
 
 void vtkRayTracedSphereRepresentation::SetActiveAssembly(const char* name)
@@ -533,253 +332,60 @@ void vtkRayTracedSphereRepresentation::SetActiveAssembly(const char* name)
 
 void vtkRayTracedSphereRepresentation::AddBlockSelector(const char* selector)
 {
-  this->BlockStyles->Looks.visible.emplace_back(selector ? selector : "");
-  this->BlockStyles->IsNew = true;
+  this->Internal->Blocks.change().visible.emplace_back(selector ? selector : "");
 }
 
 void vtkRayTracedSphereRepresentation::RemoveAllBlockSelectors()
 {
-  this->BlockStyles->Looks.visible.clear();
-  this->BlockStyles->IsNew = true;
+  this->Internal->Blocks.change().visible.clear();
 }
 
 void vtkRayTracedSphereRepresentation::SetBlockColor(
   const char* selector, double red, double green, double blue)
 {
-  this->BlockStyles->Looks.colors.push_back({ selector ? selector : "", { red, green, blue } });
-  this->BlockStyles->IsNew = true;
+  this->Internal->Blocks.change().colors.push_back(
+    { selector ? selector : "", { red, green, blue } });
 }
 
 void vtkRayTracedSphereRepresentation::RemoveAllBlockColors()
 {
-  this->BlockStyles->Looks.colors.clear();
-  this->BlockStyles->IsNew = true;
+  this->Internal->Blocks.change().colors.clear();
 }
 
 void vtkRayTracedSphereRepresentation::SetBlockOpacity(const char* selector, double opacity)
 {
-  this->BlockStyles->Looks.opacities.emplace_back(selector ? selector : "", opacity);
-  this->BlockStyles->IsNew = true;
+  this->Internal->Blocks.change().opacities.emplace_back(selector ? selector : "", opacity);
 }
 
 void vtkRayTracedSphereRepresentation::RemoveAllBlockOpacities()
 {
-  this->BlockStyles->Looks.opacities.clear();
-  this->BlockStyles->IsNew = true;
-}
-
-void vtkRayTracedSphereRepresentation::SetLookupTable(vtkScalarsToColors* table)
-{
-  this->Mapper->SetLookupTable(table);
-}
-
-void vtkRayTracedSphereRepresentation::SetMapScalars(int map)
-{
-  this->Mapper->SetColorMode(map != 0 ? VTK_COLOR_MODE_MAP_SCALARS : VTK_COLOR_MODE_DIRECT_SCALARS);
-}
-
-vtkImageData* vtkRayTracedSphereRepresentation::GetLayers()
-{
-  return this->Mapper->GetLayers();
+  this->Internal->Blocks.change().opacities.clear();
 }
 
 void vtkRayTracedSphereRepresentation::SetLayersFile(const char* name)
 {
-  this->LayersFile = name ? name : "";
+  this->Internal->Layers.name = name ? name : "";
 }
 
 const char* vtkRayTracedSphereRepresentation::GetLayersFile()
 {
-  return this->LayersFile.c_str();
+  return this->Internal->Layers.name.c_str();
 }
 
 void vtkRayTracedSphereRepresentation::SetLayersResolution(int width, int height)
 {
-  this->LayersResolution[0] = width;
-  this->LayersResolution[1] = height;
-}
-
-/// The client or the server, whichever the view has chosen; ParaView calls both.
-bool vtkRayTracedSphereRepresentation::DrawsHere()
-{
-  const bool onServer = this->View && this->View->GetUseDistributedRenderingForRender();
-  switch (vtkProcessModule::GetProcessType())
-  {
-    case vtkProcessModule::PROCESS_CLIENT:
-      return !onServer;
-    case vtkProcessModule::PROCESS_SERVER:
-    case vtkProcessModule::PROCESS_RENDER_SERVER:
-      return onServer;
-    case vtkProcessModule::PROCESS_DATA_SERVER:
-      return false;
-    default:
-      return true;
-  }
-}
-
-vtkSmartPointer<vtkImageData> vtkRayTracedSphereRepresentation::MakeLayers()
-{
-  const int width = this->LayersResolution[0];
-  const int height = this->LayersResolution[1];
-  if (!this->View || (width == 0 && height == 0))
-  {
-    return this->Mapper->GetLayers();
-  }
-  return this->Mapper->RenderLayers(this->View->GetRenderer(), this->Actor, width, height);
+  this->Internal->Layers.width = width;
+  this->Internal->Layers.height = height;
 }
 
 void vtkRayTracedSphereRepresentation::WriteLayers()
 {
-  if (!this->DrawsHere())
+  const std::string error =
+    this->Internal->Layers.write(this->Internal->View, *this->Mapper, this->Actor);
+  if (!error.empty())
   {
-    return;
+    vtkErrorMacro(<< error);
   }
-  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
-  if (this->LayersFile.empty())
-  {
-    vtkErrorMacro("LayersFile is empty: name the OpenEXR file to write the layers to.");
-    return;
-  }
-  if (processes && processes->GetNumberOfProcesses() > 1)
-  {
-    vtkErrorMacro("Layers can only be written where one process draws all spheres.");
-    return;
-  }
-  const vtkSmartPointer<vtkImageData> layers = this->MakeLayers();
-  if (layers->GetNumberOfPoints() == 0)
-  {
-    vtkErrorMacro("There are no layers to write: show the spheres and render the view first.");
-    return;
-  }
-  vtkNew<vtkRenderedLayersWriter> writer; // reports its own errors
-  writer->SetInputData(layers);
-  writer->SetFileName(this->LayersFile.c_str());
-  writer->Write();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSpheres()
-{
-  return this->Mapper->GetNumberOfSpheres();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfShownSpheres()
-{
-  return this->Mapper->GetNumberOfShownSpheres();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfTracedFrames()
-{
-  return this->Mapper->GetNumberOfTracedFrames();
-}
-
-int vtkRayTracedSphereRepresentation::GetNumberOfSamples()
-{
-  return this->Mapper->GetNumberOfSamples();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfScenes()
-{
-  return vtkRayTracedSphereMapper::GetNumberOfScenes();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfRays()
-{
-  return this->Mapper->GetNumberOfRays();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfShadowRays()
-{
-  return this->Mapper->GetNumberOfShadowRays();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSkippedTiles()
-{
-  return this->Mapper->GetNumberOfSkippedTiles();
-}
-
-vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfSkippedShadowRays()
-{
-  return this->Mapper->GetNumberOfSkippedShadowRays();
-}
-
-double vtkRayTracedSphereRepresentation::GetTraceSeconds()
-{
-  return this->Mapper->GetTraceSeconds();
-}
-
-double vtkRayTracedSphereRepresentation::GetShadowSeconds()
-{
-  return this->Mapper->GetShadowSeconds();
-}
-
-double vtkRayTracedSphereRepresentation::GetShadeSeconds()
-{
-  return this->Mapper->GetShadeSeconds();
-}
-
-void vtkRayTracedSphereRepresentation::SetOrientation(double x, double y, double z)
-{
-  this->Actor->SetOrientation(x, y, z);
-}
-
-void vtkRayTracedSphereRepresentation::SetOrigin(double x, double y, double z)
-{
-  this->Actor->SetOrigin(x, y, z);
-}
-
-void vtkRayTracedSphereRepresentation::SetPickable(int pickable)
-{
-  this->Actor->SetPickable(pickable);
-}
-
-void vtkRayTracedSphereRepresentation::SetPosition(double x, double y, double z)
-{
-  this->Actor->SetPosition(x, y, z);
-}
-
-void vtkRayTracedSphereRepresentation::SetScale(double x, double y, double z)
-{
-  this->Actor->SetScale(x, y, z);
-}
-
-void vtkRayTracedSphereRepresentation::SetAmbient(double coefficient)
-{
-  this->Actor->GetProperty()->SetAmbient(coefficient);
-}
-
-void vtkRayTracedSphereRepresentation::SetAmbientColor(double r, double g, double b)
-{
-  this->Actor->GetProperty()->SetAmbientColor(r, g, b);
-}
-
-void vtkRayTracedSphereRepresentation::SetDiffuse(double coefficient)
-{
-  this->Actor->GetProperty()->SetDiffuse(coefficient);
-}
-
-void vtkRayTracedSphereRepresentation::SetDiffuseColor(double r, double g, double b)
-{
-  this->Actor->GetProperty()->SetDiffuseColor(r, g, b);
-}
-
-void vtkRayTracedSphereRepresentation::SetOpacity(double opacity)
-{
-  this->Actor->GetProperty()->SetOpacity(opacity);
-}
-
-void vtkRayTracedSphereRepresentation::SetSpecular(double coefficient)
-{
-  this->Actor->GetProperty()->SetSpecular(coefficient);
-}
-
-void vtkRayTracedSphereRepresentation::SetSpecularColor(double r, double g, double b)
-{
-  this->Actor->GetProperty()->SetSpecularColor(r, g, b);
-}
-
-void vtkRayTracedSphereRepresentation::SetSpecularPower(double power)
-{
-  this->Actor->GetProperty()->SetSpecularPower(power);
 }
 
 void vtkRayTracedSphereRepresentation::PrintSelf(ostream& os, vtkIndent indent)

@@ -18,26 +18,14 @@
 #include "vtkForwardSilhouettesMacro.h"
 #include "vtkNew.h"
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h"
 #include "vtkSphereSilhouettes.h"
-#include "vtkTimeStamp.h"
-#include "vtkWeakPointer.h"
 
 #include <memory>
-#include <string>
 
 class vtkActor;
-class vtkDataObject;
 class vtkImageData;
-class vtkPVRenderView;
-class vtkPolyData;
 class vtkRayTracedSphereMapper;
 class vtkScalarsToColors;
-
-namespace po
-{
-class DeliveredParticles;
-}
 
 class PARTICLEOCCLUSIONREPRESENTATIONS_EXPORT vtkRayTracedSphereRepresentation
   : public vtkPVDataRepresentation
@@ -176,38 +164,19 @@ private:
   vtkRayTracedSphereRepresentation(const vtkRayTracedSphereRepresentation&) = delete;
   void operator=(const vtkRayTracedSphereRepresentation&) = delete;
 
-  [[nodiscard]] bool DrawsHere();
-  vtkSmartPointer<vtkImageData> MakeLayers();
+  void PrepareFrame(vtkInformation* inInfo);
   void ProvideData(vtkInformation* inInfo);
   void ReleaseMemory();
   void ResolveRadii();
   void UpdateBounds();
   void UpdateColoring();
-  void UpdateCropping();
-  void UpdateRefinement();
-  void UpdateSilhouettes();
 
   vtkNew<vtkActor> Actor;
   vtkNew<vtkRayTracedSphereMapper> Mapper;
   vtkNew<vtkSphereSilhouettes> Silhouettes;
-  vtkSmartPointer<vtkPolyData> Particles;
-  vtkSmartPointer<vtkDataObject> Piece; ///< the particles as they are delivered
-  std::unique_ptr<po::DeliveredParticles> Delivered;
-  std::string RadiusArray;
-  double ConstantRadius = 0;
-  double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
-  vtkTimeStamp BoundsTime;
-  vtkTimeStamp RadiusTime; ///< when a parameter of the radii was last set
-  std::string LayersFile;
-  int LayersResolution[2] = { 0, 0 };
-  vtkWeakPointer<vtkPVRenderView> View;
 
-  struct Cropping;
-  std::unique_ptr<Cropping> Crop;
-  struct Blocks;
-  std::unique_ptr<Blocks> BlockStyles;
-  struct Refinement;
-  std::unique_ptr<Refinement> Refine;
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
 };
 
 #endif
