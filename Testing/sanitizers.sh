@@ -11,7 +11,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 # address sanitizer hides: then those of VTK would fail too, which it does not survive. Of the thread sanitizer one test of each estimator is enough beside the frames.
 declare -A long_tests=(
   [asan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|Thousand|AbortsLeave|EveryAllocation'
-  [tsan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|Aborts/Embree|Embree.*(SameBits|Closed)'
+  [tsan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|WithinASecond|Aborts/Embree|Embree.*(SameBits|Closed)'
 )
 presets=()
 for argument in "$@"; do

@@ -42,6 +42,8 @@ view = CreateView("RenderViewWithSilhouettes")
 view.ViewSize = [300, 200]
 view.OrientationAxesVisibility = 0
 view.UseFXAA = 0
+view.SilhouetteSamples = 1  # lines of several processes are not smooth, and their automatic threshold is not
+view.SilhouetteThreshold = 4  # that of all particles
 if port:
     view.RemoteRenderThreshold = {threshold}
 display = Show(baked, view)
