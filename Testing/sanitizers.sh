@@ -8,7 +8,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 # Statistics need many samples, and find no more with a sanitizer than a few of them do; nor do a
 # thousand bakes. Which allocations are the project's own is told by the return address, which the
-# address sanitizer hides: then those of VTK would fail too, which it does not survive. Of the thread sanitizer one test of each estimator is enough beside the frames.
+# address sanitizer hides: those of VTK would fail too, which it does not survive. With the thread
+# sanitizer one test of each estimator is enough beside the frames, and nothing takes a second only.
 declare -A long_tests=(
   [asan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|Thousand|AbortsLeave|EveryAllocation'
   [tsan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|WithinASecond|Aborts/Embree|Embree.*(SameBits|Closed)'
