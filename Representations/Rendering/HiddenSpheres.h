@@ -35,8 +35,8 @@ public:
   [[nodiscard]] std::string update(vtkPolyData& points, const MapperInput& input,
     const HidingRules& rules, SphereRenderer& renderer);
 
-  /// The next update hides spheres anew.
-  void forget() { source_ = {}; }
+  /// None is hidden until the next update.
+  void forget() { *this = {}; }
 
   /// Of the last update.
   [[nodiscard]] vtkIdType count() const { return count_; }

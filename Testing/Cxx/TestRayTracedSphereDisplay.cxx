@@ -58,6 +58,18 @@ TEST(RayTracedSphereCropping, RangesAndPlanesShowTheRestAlone)
   EXPECT_EQ(differingShare(grab(scene.window), all, 0), 0);
 }
 
+TEST(RayTracedSphereCropping, ReleasedSpheresAreNotCounted)
+{
+  Scene scene(lattice(4));
+  scene.mapper->AddCropRange("value", 0, 0, 15);
+  scene.window->Render();
+  EXPECT_EQ(scene.mapper->GetNumberOfShownSpheres(), 16);
+  scene.mapper->ReleaseSpheres();
+  EXPECT_EQ(scene.mapper->GetNumberOfShownSpheres(), 0);
+  scene.window->Render();
+  EXPECT_EQ(scene.mapper->GetNumberOfShownSpheres(), 16);
+}
+
 TEST(RayTracedSphereCropping, PlanesAreThoseOfTheWorld)
 {
   Scene scene({ { 0, 0, 0, 1 }, { 3, 0, 0, 1 } }, 200, 100);
