@@ -15,6 +15,7 @@ namespace
 std::vector<std::array<double, 4>> coefficientsOf(const std::vector<HalfSpace>& halfSpaces)
 {
   std::vector<std::array<double, 4>> planes;
+  planes.reserve(halfSpaces.size());
   for (const HalfSpace& h : halfSpaces)
   {
     planes.push_back({ h.normal.x, h.normal.y, h.normal.z, h.offset });
