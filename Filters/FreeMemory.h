@@ -6,8 +6,8 @@
 
 namespace po
 {
-/// Bytes that this machine can still give, or that this process may still use where that is less: by
-/// its resource limits, and by the environment variable PARTICLEOCCLUSION_MEMORY_LIMIT (KiB).
+/// Bytes that this machine can still give, or that this process may still use where that is less:
+/// by its resource limits, and by the environment variable PARTICLEOCCLUSION_MEMORY_LIMIT (KiB).
 [[nodiscard]] double freeMemory();
 
 /// Says beforehand what would otherwise end in swapping or in a killed process: throws
