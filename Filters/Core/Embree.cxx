@@ -31,10 +31,11 @@ const char* describe(RTCError error)
   }
 }
 
-/// Where an allocation of its own fails, Embree 3.13 corrupts its heap or hangs.
+/// Where an allocation of its own fails, Embree 3.13 may corrupt its heap or hang. So memory that is
+/// plainly missing is told before. This is no proof: others may take it in between.
 void requireMemoryForScene(std::size_t primitives)
 {
-  // Measured below 300 bytes a primitive; the rest is for blocks that each thread takes at once.
+  // As much as bakeMemory() counts; the rest is for blocks that each thread takes at once.
   constexpr std::size_t BytesPerPrimitive = 300;
   constexpr std::size_t BytesOfThreads = std::size_t{ 32 } << 20;
   // Not new, which a compiler may leave out with its delete. Pages that are not touched cost
