@@ -31,8 +31,8 @@ const char* describe(RTCError error)
   }
 }
 
-/// Where an allocation of its own fails, Embree 3.13 may corrupt its heap or hang. So memory that is
-/// plainly missing is told before. This is no proof: others may take it in between.
+/// Where an allocation of its own fails, Embree 3.13 may corrupt its heap or hang. So memory that
+/// is plainly missing is told before. This is no proof: others may take it in between.
 void requireMemoryForScene(std::size_t primitives)
 {
   // As much as bakeMemory() counts; the rest is for blocks that each thread takes at once.
