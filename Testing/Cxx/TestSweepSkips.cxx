@@ -119,8 +119,9 @@ TEST(SweepEstimator, WhatIsAloneWithinTheMaximumDistanceChangesNothing)
   const po::BakeScene scene(cloud, occluders);
   po::BakeSettings settings = floatSettings(8, 49);
   settings.maximumDistance = 0.5;
-  for (const po::Background& background : { po::Background(po::UniformBackground{}),
-         po::Background(po::GradientBackground{ { 1, 1, 0 }, 0.1, 1 }) })
+  std::vector<po::Background> backgrounds(2); // the first one uniform
+  backgrounds[1] = po::GradientBackground{ { 1, 1, 0 }, 0.1, 1 };
+  for (const po::Background& background : backgrounds)
   {
     settings.background = background;
     po::SweepOptions options;
