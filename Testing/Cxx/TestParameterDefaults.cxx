@@ -40,6 +40,9 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "InsideThreshold", { f->GetInsideThreshold() } },
     { "Encoding", { f->GetEncoding() } },
     { "Seed", { f->GetSeed() } },
+    { "UseCache", { f->GetUseCache() } },
+    { "CacheDirectory", { f->GetCacheDirectory() } },
+    { "CacheSizeLimit", { f->GetCacheSizeLimit() } },
   };
   expectDefaultsOfXml("Filters.xml", "SphereAmbientOcclusion", defaults);
 }
