@@ -73,9 +73,14 @@ void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>
   }
 }
 
-void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba)
+const std::uint8_t* colorsOf(
+  const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& merged)
 {
-  rgba = actors.front().renderer->rgba();
+  if (actors.size() == 1)
+  {
+    return actors.front().renderer->rgba().data();
+  }
+  merged = actors.front().renderer->rgba();
   std::vector<double> nearest = actors.front().renderer->frame().t;
   for (std::size_t i = 1; i < actors.size(); ++i)
   {
@@ -87,10 +92,11 @@ void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_
       {
         nearest[pixel] = t[pixel];
         std::copy_n(other.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4,
-          rgba.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
+          merged.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
       }
     }
   }
+  return merged.data();
 }
 
 bool isTile(vtkRenderer* renderer)

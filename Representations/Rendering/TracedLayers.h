@@ -34,8 +34,10 @@ struct TracedActor
 /// Window depth of each pixel, the nearest of all actors.
 void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth);
 
-/// RGBA bytes of each pixel, of the nearest of all actors.
-void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba);
+/// RGBA bytes of each pixel, of the nearest of all actors. `merged` is where they are put together,
+/// if there is more than one actor.
+[[nodiscard]] const std::uint8_t* colorsOf(
+  const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& merged);
 
 /// Does the window show one tile of a larger picture?
 [[nodiscard]] bool isTile(vtkRenderer* renderer);

@@ -301,7 +301,7 @@ std::string vtkDepthSilhouettePass::FindInTracedFrames(const vtkRenderState* sta
   const po::SilhouetteRule rule = po::resolve(po::silhouetteParametersOf(*this), scale);
   const bool placed = !self.Actors.empty();
   po::findTracedSilhouettes(
-    po::depthOf(actors), rule, self.Lines, { this->Darken || placed, true });
+    po::depthOf(actors), rule, self.Lines, { this->Darken || placed || rule.samples > 1, true });
   self.Margin = margin;
   self.FrontDepth.clear();
   if (placed)
@@ -388,7 +388,7 @@ std::string vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state)
   Internals& self = *this->Internal;
   const po::SilhouetteViewport viewport = viewportOf(state);
   po::SilhouetteSurroundings surroundings;
-  if (this->Darken)
+  if (this->Darken || !self.Lines.inside.empty())
   {
     std::string error = self.Painter.readColors(windowOf(state), viewport, self.Colors);
     if (!error.empty())
