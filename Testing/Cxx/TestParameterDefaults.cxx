@@ -9,6 +9,7 @@
 
 #include "vtkDepthSilhouettes.h"
 #include "vtkNew.h"
+#include "vtkOcclusionTextureWriter.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <gtest/gtest.h>
@@ -60,6 +61,16 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
   EXPECT_EQ(f->GetBackgroundBottom(), gradient.bottom);
   EXPECT_EQ(f->GetBackgroundTop(), gradient.top);
   EXPECT_EQ(f->GetBackgroundUp()[2], gradient.up.z);
+}
+
+TEST(ParameterDefaults, OfTheTextureWriterAgreeWithItsXml)
+{
+  vtkNew<vtkOcclusionTextureWriter> f;
+  const ParameterTable defaults{
+    { "FileName", { f->GetFileName() } },
+    { "Precision", { f->GetPrecision() } },
+  };
+  expectDefaultsOfXml("OcclusionTextures.xml", "OcclusionTextureWriter", defaults);
 }
 
 TEST(ParameterDefaults, OfTheImageFilterAgreeWithItsXml)
