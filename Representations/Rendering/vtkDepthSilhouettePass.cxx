@@ -136,6 +136,20 @@ void findNearest(const std::vector<float>& zBuffer, int width, int height, int s
   }
 }
 
+std::vector<vtkActor*> visibleActorsOf(const vtkRenderState* state)
+{
+  std::vector<vtkActor*> actors;
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    auto* actor = vtkActor::SafeDownCast(state->GetPropArray()[i]);
+    if (actor && actor->GetVisibility())
+    {
+      actors.push_back(actor);
+    }
+  }
+  return actors;
+}
+
 /// All ray-traced spheres in the frame buffer.
 std::vector<po::TracedActor> spheresOf(const vtkRenderState* state, int width, int height)
 {
@@ -297,7 +311,7 @@ std::string vtkDepthSilhouettePass::FindInTracedFrames(const vtkRenderState* sta
   Internals& self = *this->Internal;
   const po::SilhouetteViewport viewport = viewportOf(state);
   const auto actors = tracedActorsOf(state, viewport.width, viewport.height);
-  const po::SilhouetteScale& scale = self.scale(po::scaleOf(actors), !isTile(state));
+  const po::SilhouetteScale& scale = self.scale(*po::scaleOf(po::actorsOf(actors)), !isTile(state));
   const po::SilhouetteRule rule = po::resolve(po::silhouetteParametersOf(*this), scale);
   const bool placed = !self.Actors.empty();
   po::findTracedSilhouettes(
@@ -327,14 +341,13 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
     po::DepthImage<float>{ self.Distances.data(), viewport.width, viewport.height }, samples);
   po::SilhouetteParameters parameters = po::silhouetteParametersOf(*this);
   parameters.samples = samples;
-  const auto spheres = spheresOf(state, viewport.width, viewport.height);
-  if (this->ThresholdUnit != 0 && spheres.empty())
+  const auto ofSpheres = po::scaleOf(visibleActorsOf(state));
+  if (this->ThresholdUnit != 0 && !ofSpheres)
   {
     return "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
   }
   const po::SilhouetteScale& scale = self.scale(
-    spheres.empty() ? po::SilhouetteScale{ 0, po::depthSpread(depth) } : po::scaleOf(spheres),
-    !isTile(state));
+    ofSpheres ? *ofSpheres : po::SilhouetteScale{ 0, po::depthSpread(depth) }, !isTile(state));
   const bool placed = !self.Actors.empty();
   po::findSilhouettes(
     depth, po::resolve(parameters, scale), self.Lines, { this->Darken || placed, true });

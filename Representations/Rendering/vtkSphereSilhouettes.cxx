@@ -129,7 +129,7 @@ bool vtkSphereSilhouettes::Find(const po::SilhouetteViewport& place)
     return false;
   }
   const po::SilhouetteRule rule =
-    po::resolve(po::silhouetteParametersOf(*this), po::scaleOf(actors));
+    po::resolve(po::silhouetteParametersOf(*this), *po::scaleOf(po::actorsOf(actors)));
   po::findTracedSilhouettes(po::depthOf(actors), rule, self.Lines, { true, true });
   po::mergeWindowDepth(actors, self.WindowDepth);
   const po::SilhouetteSurroundings surroundings{ po::colorsOf(actors, self.Colors),

@@ -168,6 +168,7 @@ private:
   void ProvideData(vtkInformation* inInfo);
   void ReleaseMemory();
   void ResolveRadii();
+  void ShareExtent();
   void UpdateBounds();
   void UpdateColoring();
 
