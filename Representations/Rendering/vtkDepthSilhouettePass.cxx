@@ -19,6 +19,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderState.h"
+#include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
 
@@ -209,6 +210,7 @@ struct vtkDepthSilhouettePass::Internals
 {
   po::SilhouettePainter Painter;
   std::vector<vtkSmartPointer<vtkActor>> Actors; ///< that have lines; none: all
+  vtkNew<vtkRenderStepsPass> ActorsPass;         ///< draws them alone
   po::SilhouetteScale Scale;                     ///< of the last whole picture
   bool HasScale = false;
   std::vector<float> ZBuffer, Distances, FrontDepth;
@@ -388,7 +390,8 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
   vtkRenderState inside(renderer);
   inside.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
   inside.SetFrameBuffer(frame);
-  this->DelegatePass->Render(&inside);
+  // A delegate may draw all of the renderer's props, as ParaView's does.
+  (self.Actors.empty() ? this->DelegatePass : self.ActorsPass.Get())->Render(&inside);
   const bool traced = spheres && !tracedActorsOf(&inside, width, height).empty();
   std::string error = traced ? this->FindInTracedFrames(&inside, margin)
                              : this->FindInZBuffer(&inside, samples, margin);
@@ -423,6 +426,7 @@ void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Superclass::ReleaseGraphicsResources(window);
   this->Internal->Painter.releaseGraphicsResources();
+  this->Internal->ActorsPass->ReleaseGraphicsResources(window);
 }
 
 void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)
