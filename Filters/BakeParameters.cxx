@@ -140,6 +140,11 @@ RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
   return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius() };
 }
 
+std::string idArrayOf(vtkSphereAmbientOcclusion& filter)
+{
+  return textOf(filter.GetIdArray());
+}
+
 CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)
 {
   return { filter.GetUseCache(), textOf(filter.GetCacheDirectory()), filter.GetCacheSizeLimit() };
@@ -168,6 +173,7 @@ OcclusionParameters describeBake(
   parameters.set("radiusArray", textOf(filter.GetRadiusArray()));
   parameters.set("radiusScale", filter.GetRadiusScale());
   parameters.set("constantRadius", filter.GetConstantRadius());
+  parameters.set("idArray", textOf(filter.GetIdArray()));
   describeBackground(filter, parameters);
   parameters.set("targetError", filter.GetTargetError());
   parameters.set("estimatedError", report.estimatedError);

@@ -2,11 +2,10 @@
 #include "vtkSphereAmbientOcclusion.h"
 
 #include "BakeCache.h"
+#include "BakeInput.h"
 #include "BakeParameters.h"
 #include "BakedData.h"
 #include "ControllerGroup.h"
-#include "OccluderInput.h"
-#include "SharedSpheres.h"
 
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"
@@ -18,8 +17,6 @@
 
 #include <chrono>
 #include <functional>
-#include <limits>
-#include <stdexcept>
 
 vtkStandardNewMacro(vtkSphereAmbientOcclusion);
 
@@ -42,27 +39,11 @@ struct vtkSphereAmbientOcclusion::Internals
   po::BakeReport Report;
   double Seconds = 0;
 
-  /// What was read of this process' data.
-  struct Particles
-  {
-    po::SphereCloud Cloud;
-    std::vector<unsigned> Places; ///< of each sphere in the cloud of the task
-  };
-
   /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
   void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
     const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluderData);
 
-  static Particles ReadParticles(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    const std::vector<vtkPolyData*>& blocks);
-  static po::Occluders ReadOccluders(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    vtkDataObject* data, const po::SphereCloud& cloud);
-
-  /// Exchanges particles and occluders with the other processes.
-  po::BakeTask MakeTask(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    Particles& particles, po::Occluders occluders, const po::BakeSettings& settings);
-
-  void CountParticles(const Particles& particles, const po::BakeResult& result,
+  void CountParticles(const po::SphereCloud& own, const po::BakeResult& result,
     const po::BakeSettings& settings, const po::ProcessGroup& group);
 };
 
@@ -71,15 +52,18 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   vtkDataObject* occluderData)
 {
   const po::BakeSettings settings = po::settingsOf(*self);
-  Particles particles = ReadParticles(self, group, blocks);
-  po::Occluders occluders = ReadOccluders(self, group, occluderData, particles.Cloud);
-  po::BakeTask task = this->MakeTask(self, group, particles, std::move(occluders), settings);
+  po::BakeInput input = po::readBakeInput(*self, settings, blocks, occluderData, group);
+  this->Report = input.report;
+  for (const std::string& warning : input.warnings)
+  {
+    vtkWarningWithObjectMacro(self, << warning);
+  }
 
   po::Progress progress(reportTo(self));
-  const int method = po::chooseMethod(self->Method, task, group);
+  const int method = po::chooseMethod(self->Method, input.task, group);
   std::string warning;
   po::BakeResult result =
-    po::bakeOrLoad(po::cacheOf(*self), method, task, group, progress, this->Report, warning);
+    po::bakeOrLoad(po::cacheOf(*self), method, input.task, group, progress, this->Report, warning);
   if (!warning.empty())
   {
     vtkWarningWithObjectMacro(self, << warning);
@@ -89,8 +73,8 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
     group.stop(po::WorkState::Aborted);
     throw po::WorkStopped(po::WorkState::Aborted, "");
   }
-  result = po::inOrderOf(particles.Places, task.receivers, std::move(result));
-  this->CountParticles(particles, result, settings, group);
+  result = po::inOrderOf(input.places, input.task.receivers, std::move(result));
+  this->CountParticles(input.own, result, settings, group);
   const double error = this->Report.estimatedError;
   if (self->TargetError > 0 && error > self->TargetError && group.rank() == 0)
   {
@@ -99,79 +83,17 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
                                     << error << ".");
   }
   group.agree(); // nobody was aborted: from here on it is all or nothing
-  po::attachBake(blocks, particles.Cloud, result, po::describeBake(*self, settings, this->Report));
+  po::attachBake(blocks, input.own, result, po::describeBake(*self, settings, this->Report));
   group.agree();
 }
 
-vtkSphereAmbientOcclusion::Internals::Particles vtkSphereAmbientOcclusion::Internals::ReadParticles(
-  vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-  const std::vector<vtkPolyData*>& blocks)
-{
-  std::string error;
-  std::optional<po::SphereCloud> cloud =
-    po::readBlocks(blocks, po::radiiOf(*self), error, nullptr, group);
-  if (!cloud)
-  {
-    throw std::invalid_argument(error);
-  }
-  const po::RejectedParticles rejected = cloud->rejected.summed(group);
-  if (rejected.total() > 0 && group.rank() == 0)
-  {
-    vtkWarningWithObjectMacro(self, << po::describe(rejected));
-  }
-  return { std::move(*cloud), {} };
-}
-
-po::Occluders vtkSphereAmbientOcclusion::Internals::ReadOccluders(vtkSphereAmbientOcclusion* self,
-  const po::ProcessGroup& group, vtkDataObject* data, const po::SphereCloud& cloud)
-{
-  po::OccluderInput input = po::readOccluders(data, po::radiiOf(*self), cloud, group);
-  for (const std::string& warning : input.warnings)
-  {
-    if (group.rank() == 0)
-    {
-      vtkWarningWithObjectMacro(self, << warning);
-    }
-  }
-  return std::move(input.occluders);
-}
-
-po::BakeTask vtkSphereAmbientOcclusion::Internals::MakeTask(vtkSphereAmbientOcclusion* self,
-  const po::ProcessGroup& group, Particles& particles, po::Occluders occluders,
-  const po::BakeSettings& settings)
-{
-  const po::SphereCloud& own = particles.Cloud;
-  this->Report.leftOut = own.rejected.summed(group).total();
-  this->Report.occluderSpheres = group.sum(std::uint64_t(occluders.spheres.size()));
-  this->Report.occluderTriangles = group.sum(std::uint64_t(occluders.mesh.triangles.size()));
-
-  const float reach = settings.maximumDistance > 0
-    ? static_cast<float>(settings.maximumDistance / own.scale)
-    : std::numeric_limits<float>::infinity();
-  const po::Neighbourhood neighbourhood(own.spheres, reach, group);
-  po::SharedSpheres shared =
-    po::shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
-  particles.Places = std::move(shared.places);
-
-  po::BakeTask task;
-  task.cloud.origin = own.origin;
-  task.cloud.scale = own.scale;
-  task.cloud.spheres = std::move(shared.spheres);
-  task.cloud.centers = std::move(shared.centers);
-  task.receivers = po::distinct(particles.Places);
-  task.occluders = po::shareOccluders(std::move(occluders), neighbourhood, group);
-  task.settings = settings;
-  task.targetError = self->TargetError;
-  return task;
-}
-
 /// Ghosts were baked, since they are drawn, but count where they are at home.
-void vtkSphereAmbientOcclusion::Internals::CountParticles(const Particles& particles,
+void vtkSphereAmbientOcclusion::Internals::CountParticles(const po::SphereCloud& own,
   const po::BakeResult& result, const po::BakeSettings& settings, const po::ProcessGroup& group)
 {
   std::uint64_t owned = 0;
   std::uint64_t dark = 0;
-  const std::vector<std::uint8_t>& ghosts = particles.Cloud.ghosts;
+  const std::vector<std::uint8_t>& ghosts = own.ghosts;
   for (std::size_t i = 0; i < result.mean.size(); ++i)
   {
     const bool isOwned = ghosts.empty() || ghosts[i] == 0;
@@ -196,6 +118,7 @@ vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
 vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
 {
   this->SetRadiusArray(nullptr);
+  this->SetIdArray(nullptr);
   this->SetBackgroundImage(nullptr);
   this->SetCacheDirectory(nullptr);
 }
@@ -388,6 +311,7 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "InsideThreshold: " << this->InsideThreshold << "\n"
      << indent << "Encoding: " << this->Encoding << "\n"
      << indent << "Seed: " << this->Seed << "\n"
+     << indent << "IdArray: " << (this->IdArray ? this->IdArray : "(automatic)") << "\n"
      << indent << "UseCache: " << this->UseCache << "\n"
      << indent << "CacheDirectory: " << (this->CacheDirectory ? this->CacheDirectory : "") << "\n"
      << indent << "CacheSizeLimit: " << this->CacheSizeLimit << "\n";
