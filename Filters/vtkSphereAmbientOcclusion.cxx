@@ -14,7 +14,7 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
+#include "vtkPointSet.h"
 
 #include <chrono>
 #include <functional>
@@ -41,6 +41,7 @@ struct vtkSphereAmbientOcclusion::Internals
 {
   po::BakeReport Report;
   double Seconds = 0;
+  std::string RadiusUsed;
 
   /// What was read of this process' data.
   struct Particles
@@ -51,10 +52,10 @@ struct vtkSphereAmbientOcclusion::Internals
 
   /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
   void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluderData);
+    const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluderData);
 
-  static Particles ReadParticles(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    const std::vector<vtkPolyData*>& blocks);
+  Particles ReadParticles(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
+    const std::vector<vtkPointSet*>& blocks);
   static po::Occluders ReadOccluders(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
     vtkDataObject* data, const po::SphereCloud& cloud);
 
@@ -67,7 +68,7 @@ struct vtkSphereAmbientOcclusion::Internals
 };
 
 void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
-  const po::ProcessGroup& group, const std::vector<vtkPolyData*>& blocks,
+  const po::ProcessGroup& group, const std::vector<vtkPointSet*>& blocks,
   vtkDataObject* occluderData)
 {
   const po::BakeSettings settings = po::settingsOf(*self);
@@ -99,21 +100,22 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
 
 vtkSphereAmbientOcclusion::Internals::Particles vtkSphereAmbientOcclusion::Internals::ReadParticles(
   vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-  const std::vector<vtkPolyData*>& blocks)
+  const std::vector<vtkPointSet*>& blocks)
 {
   std::string error;
-  std::optional<po::SphereCloud> cloud =
-    po::readBlocks(blocks, po::radiiOf(*self), error, nullptr, group);
-  if (!cloud)
+  const po::RadiusSettings radii = po::radiiOf(*self);
+  std::optional<po::ParticleInput> input = po::readBlocks(blocks, radii, error, nullptr, group);
+  if (!input)
   {
     throw std::invalid_argument(error);
   }
-  const po::RejectedParticles rejected = cloud->rejected.summed(group);
+  const po::RejectedParticles rejected = input->cloud.rejected.summed(group);
   if (rejected.total() > 0 && group.rank() == 0)
   {
     vtkWarningWithObjectMacro(self, << po::describe(rejected));
   }
-  return { std::move(*cloud), {} };
+  this->RadiusUsed = po::describe(radii, input->radii);
+  return { std::move(input->cloud), {} };
 }
 
 po::Occluders vtkSphereAmbientOcclusion::Internals::ReadOccluders(vtkSphereAmbientOcclusion* self,
@@ -203,7 +205,7 @@ int vtkSphereAmbientOcclusion::FillInputPortInformation(int port, vtkInformation
     return 1;
   }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
@@ -345,6 +347,11 @@ vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesAlone()
   return static_cast<vtkIdType>(this->Impl->Report.counters.particlesAlone);
 }
 
+const char* vtkSphereAmbientOcclusion::GetRadiusUsed()
+{
+  return this->Impl->RadiusUsed.c_str();
+}
+
 int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
 {
   return this->Impl->Report.samplesUsed;
@@ -366,6 +373,8 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "RadiusArray: " << (this->RadiusArray ? this->RadiusArray : "(automatic)") << "\n"
      << indent << "RadiusScale: " << this->RadiusScale << "\n"
      << indent << "ConstantRadius: " << this->ConstantRadius << "\n"
+     << indent << "RadiusFrom: " << this->RadiusFrom << "\n"
+     << indent << "Density: " << this->Density << "\n"
      << indent << "TextureResolution: " << this->TextureResolution << "\n"
      << indent << "SamplesPerTexel: " << this->SamplesPerTexel << "\n"
      << indent << "TargetError: " << this->TargetError << "\n"
