@@ -89,8 +89,8 @@ public:
     RadiiInArray = 0, ///< the values of RadiusArray
     Diameters = 1,    ///< half of them; (automatic): diameter, Diameter, d
     Elements = 2,     ///< van der Waals radii in Å (Bondi 1964) of symbols or atomic numbers;
-                  ///< (automatic): element, atom_type, Atomic Numbers, atomic_number
-    Masses = 3 ///< of spheres of that mass and the Density; (automatic): mass, Mass, m
+                      ///< (automatic): element, atom_type, Atomic Numbers, atomic_number
+    Masses = 3        ///< of spheres of that mass and the Density; (automatic): mass, Mass, m
   };
 
   ///@{
@@ -267,6 +267,14 @@ public:
   int GetNumberOfSamplesUsed(); ///< differs from SamplesPerTexel with Reference and TargetError
   double GetEstimatedError();   ///< RMS error of linear visibility, 0 where none was found
   double GetBakeSeconds();      ///< wall time of the whole execution
+  ///@}
+
+  ///@{
+  /// What an execution would take: time and memory in words, for the particles of this process as
+  /// they were last read; empty where there are none yet. And what it is estimated for.
+  const char* GetBakeEstimate();
+  int GetNumberOfCores();
+  double GetFreeMemory(); ///< bytes
   ///@}
 
 protected:
