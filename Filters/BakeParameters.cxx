@@ -141,6 +141,11 @@ RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
     static_cast<RadiusSource>(filter.GetRadiusFrom()), filter.GetDensity() };
 }
 
+CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)
+{
+  return { filter.GetUseCache(), textOf(filter.GetCacheDirectory()), filter.GetCacheSizeLimit() };
+}
+
 const char* nameOfMethod(int method)
 {
   return MethodNames[method];

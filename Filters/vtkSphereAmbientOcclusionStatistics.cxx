@@ -123,6 +123,11 @@ double vtkSphereAmbientOcclusion::GetBakeSeconds()
   return this->Impl->Seconds;
 }
 
+bool vtkSphereAmbientOcclusion::GetLoadedFromCache()
+{
+  return this->Impl->Report.loaded;
+}
+
 const char* vtkSphereAmbientOcclusion::GetBakeEstimate()
 {
   po::BakeWork work;

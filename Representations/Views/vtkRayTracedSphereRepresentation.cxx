@@ -10,7 +10,9 @@
 #include "RadiusChoice.h"
 #include "Refinement.h"
 #include "SilhouetteVisibility.h"
+#include "SphereRenderer.h"
 #include "Tracked.h"
+#include "WholeSet.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
@@ -114,9 +116,25 @@ int vtkRayTracedSphereRepresentation::RequestData(
     vtkWarningMacro(<< warning);
   }
   this->Internal->Radii.resolve(*this->Internal->Particles, *this->Mapper);
+  this->ShareExtent();
   const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
   this->Internal->Piece = po::pieceToDeliver(this->Internal->Particles, group.rank(), group.size());
   return this->Superclass::RequestData(request, inputVector, outputVector);
+}
+
+/// Tells the mapper of the particles of all processes.
+void vtkRayTracedSphereRepresentation::ShareExtent()
+{
+  const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
+  if (group.size() > 1)
+  {
+    this->UpdateBounds();
+    const po::SphereCloud& cloud = this->Mapper->GetSphereRenderer().cloud();
+    const po::WholeSet all = po::wholeSetOf({ static_cast<double>(cloud.spheres.size()),
+                                              cloud.scale, vtkBoundingBox(this->Internal->Bounds) },
+      group);
+    this->Mapper->SetWholeSet(all.particles, all.meanRadius, all.bounds.GetDiagonalLength());
+  }
 }
 
 int vtkRayTracedSphereRepresentation::ProcessViewRequest(

@@ -129,6 +129,9 @@ public:
   /// Default: not visible. Only where one process draws all spheres: with several, a view with
   /// silhouettes finds lines after compositing.
   vtkForwardSilhouettesMacro(Silhouettes);
+
+  /// What is drawn in the view.
+  vtkActor* GetActor() { return this->Actor; }
   ///@}
 
   /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
@@ -172,6 +175,7 @@ private:
   void PrepareFrame(vtkInformation* inInfo);
   void ProvideData(vtkInformation* inInfo);
   void ReleaseMemory();
+  void ShareExtent();
   void UpdateBounds();
   void UpdateColoring();
 
