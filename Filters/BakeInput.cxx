@@ -18,16 +18,17 @@ namespace po
 {
 namespace
 {
-SphereCloud readParticles(vtkSphereAmbientOcclusion& filter,
-  const std::vector<vtkPolyData*>& blocks, const ProcessGroup& group)
+void readParticles(BakeInput& input, const RadiusSettings& radii,
+  const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
 {
   std::string error;
-  std::optional<SphereCloud> cloud = readBlocks(blocks, radiiOf(filter), error, nullptr, group);
-  if (!cloud)
+  std::optional<ParticleInput> particles = readBlocks(blocks, radii, error, nullptr, group);
+  if (!particles)
   {
     throw std::invalid_argument(error);
   }
-  return std::move(*cloud);
+  input.own = std::move(particles->cloud);
+  input.radiusUsed = describe(radii, particles->radii);
 }
 
 /// Numbers of the particles in the order of the task's cloud, any for those of other processes;
@@ -74,10 +75,10 @@ void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint
 }
 
 BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& settings,
-  const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluders, const ProcessGroup& group)
+  const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluders, const ProcessGroup& group)
 {
   BakeInput input;
-  input.own = readParticles(filter, blocks, group);
+  readParticles(input, radiiOf(filter), blocks, group);
   const std::vector<std::uint64_t> idOfPoint = readIds(blocks, idArrayOf(filter), group);
   OccluderInput others = readOccluders(occluders, radiiOf(filter), input.own, group);
 

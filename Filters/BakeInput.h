@@ -10,7 +10,7 @@
 #include <vector>
 
 class vtkDataObject;
-class vtkPolyData;
+class vtkPointSet;
 class vtkSphereAmbientOcclusion;
 
 namespace po
@@ -22,6 +22,7 @@ struct BakeInput
   std::vector<unsigned> places; ///< of each of them in the cloud of the task
   BakeTask task;
   BakeReport report;                 ///< the numbers that are known without a bake
+  std::string radiusUsed;            ///< where the radii came from, in words
   std::vector<std::string> warnings; ///< for the first process to report
 };
 
@@ -29,7 +30,7 @@ struct BakeInput
 /// std::invalid_argument naming the array or parameter that is wrong.
 /// @param occluders may be null
 [[nodiscard]] BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter,
-  const BakeSettings& settings, const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluders,
+  const BakeSettings& settings, const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluders,
   const ProcessGroup& group);
 }
 

@@ -137,7 +137,8 @@ BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter)
 
 RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
 {
-  return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius() };
+  return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius(),
+    static_cast<RadiusSource>(filter.GetRadiusFrom()), filter.GetDensity() };
 }
 
 std::string idArrayOf(vtkSphereAmbientOcclusion& filter)
@@ -174,6 +175,8 @@ OcclusionParameters describeBake(
   parameters.set("radiusScale", filter.GetRadiusScale());
   parameters.set("constantRadius", filter.GetConstantRadius());
   parameters.set("idArray", textOf(filter.GetIdArray()));
+  parameters.set("radiusFrom", filter.GetRadiusFrom());
+  parameters.set("density", filter.GetDensity());
   describeBackground(filter, parameters);
   parameters.set("targetError", filter.GetTargetError());
   parameters.set("estimatedError", report.estimatedError);

@@ -5,7 +5,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
+#include "vtkPointSet.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ constexpr std::array<const char*, 6> DefaultIdArrays = { "id", "Id", "ID", "Part
   "GlobalNodeId", "GlobalPointIds" };
 
 /// The array if it has one number a point, else null.
-vtkDataArray* findIds(vtkPolyData& block, const std::string& name)
+vtkDataArray* findIds(vtkPointSet& block, const std::string& name)
 {
   vtkDataArray* ids = block.GetPointData()->GetArray(name.c_str());
   const bool usable = ids && ids->GetNumberOfComponents() == 1 &&
@@ -27,15 +27,15 @@ vtkDataArray* findIds(vtkPolyData& block, const std::string& name)
   return usable ? ids : nullptr;
 }
 
-bool haveAll(const std::vector<vtkPolyData*>& blocks, const std::string& name)
+bool haveAll(const std::vector<vtkPointSet*>& blocks, const std::string& name)
 {
   return std::all_of(blocks.begin(), blocks.end(),
-    [&](vtkPolyData* block) { return block->GetNumberOfPoints() == 0 || findIds(*block, name); });
+    [&](vtkPointSet* block) { return block->GetNumberOfPoints() == 0 || findIds(*block, name); });
 }
 
 /// Empty if there is none.
 std::string chooseArray(
-  const std::vector<vtkPolyData*>& blocks, const std::string& array, const ProcessGroup& group)
+  const std::vector<vtkPointSet*>& blocks, const std::string& array, const ProcessGroup& group)
 {
   if (array == RadiusSettings::NoArray)
   {
@@ -57,11 +57,11 @@ std::string chooseArray(
 }
 
 std::vector<std::uint64_t> readIds(
-  const std::vector<vtkPolyData*>& blocks, const std::string& array, const ProcessGroup& group)
+  const std::vector<vtkPointSet*>& blocks, const std::string& array, const ProcessGroup& group)
 {
   const std::string name = chooseArray(blocks, array, group);
   std::vector<std::uint64_t> ids;
-  for (vtkPolyData* block : blocks)
+  for (vtkPointSet* block : blocks)
   {
     vtkDataArray* values = name.empty() ? nullptr : findIds(*block, name);
     for (vtkIdType i = 0; values && i < values->GetNumberOfTuples(); ++i)

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-class vtkPolyData;
+class vtkPointSet;
 
 namespace po
 {
@@ -20,7 +20,7 @@ namespace po
 /// Throws std::invalid_argument if the named array is missing in a block, not numeric, or not one
 /// number a point.
 [[nodiscard]] std::vector<std::uint64_t> readIds(
-  const std::vector<vtkPolyData*>& blocks, const std::string& array, const ProcessGroup& group);
+  const std::vector<vtkPointSet*>& blocks, const std::string& array, const ProcessGroup& group);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkSphereAmbientOcclusion.h"
+#include "vtkSphereAmbientOcclusionInternals.h"
 
 #include "BakeCache.h"
 #include "BakeInput.h"
@@ -13,7 +13,7 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
+#include "vtkPointSet.h"
 
 #include <chrono>
 #include <functional>
@@ -23,43 +23,41 @@ vtkStandardNewMacro(vtkSphereAmbientOcclusion);
 namespace
 {
 /// Reports to the user interface, which may stop the bake.
-po::Progress::Report reportTo(vtkAlgorithm* algorithm)
+/// @param progress what the report is for
+po::Progress::Report reportTo(vtkAlgorithm* algorithm, const po::Progress& progress)
 {
-  return [algorithm](double share)
+  return [algorithm, &progress](double share)
   {
+    const std::string percent = std::to_string(static_cast<int>(100 * share));
+    algorithm->SetProgressText((progress.phase() + ": " + percent + " %").c_str());
     algorithm->UpdateProgress(share);
     return !algorithm->CheckAbort();
   };
 }
+
+/// For what has no share that is known.
+void announce(vtkAlgorithm* algorithm, double share, const char* phase)
+{
+  algorithm->SetProgressText(phase);
+  algorithm->UpdateProgress(share);
+}
 }
 
-/// One execution.
-struct vtkSphereAmbientOcclusion::Internals
-{
-  po::BakeReport Report;
-  double Seconds = 0;
-
-  /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
-  void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluderData);
-
-  void CountParticles(const po::SphereCloud& own, const po::BakeResult& result,
-    const po::BakeSettings& settings, const po::ProcessGroup& group);
-};
-
 void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
-  const po::ProcessGroup& group, const std::vector<vtkPolyData*>& blocks,
+  const po::ProcessGroup& group, const std::vector<vtkPointSet*>& blocks,
   vtkDataObject* occluderData)
 {
   const po::BakeSettings settings = po::settingsOf(*self);
+  announce(self, 0, "Reading particles");
   po::BakeInput input = po::readBakeInput(*self, settings, blocks, occluderData, group);
   this->Report = input.report;
+  this->RadiusUsed = input.radiusUsed;
   for (const std::string& warning : input.warnings)
   {
     vtkWarningWithObjectMacro(self, << warning);
   }
 
-  po::Progress progress(reportTo(self));
+  po::Progress progress(reportTo(self, progress)); // which is called later
   const int method = po::chooseMethod(self->Method, input.task, group);
   std::string warning;
   po::BakeResult result =
@@ -83,6 +81,7 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
                                     << error << ".");
   }
   group.agree(); // nobody was aborted: from here on it is all or nothing
+  announce(self, 1, "Storing textures");
   po::attachBake(blocks, input.own, result, po::describeBake(*self, settings, this->Report));
   group.agree();
 }
@@ -133,7 +132,7 @@ int vtkSphereAmbientOcclusion::FillInputPortInformation(int port, vtkInformation
     return 1;
   }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
@@ -154,7 +153,10 @@ int vtkSphereAmbientOcclusion::RequestData(
     this->Impl->Bake(this, group, po::particleBlocks(output), occluders);
   };
   std::string error;
-  if (!po::runTogether(group, std::ref(bake), error)) // a copy would be memory that may be missing
+  // By reference: a copy would be memory that may be missing.
+  const bool baked = po::runTogether(group, std::ref(bake), error);
+  this->SetProgressText(nullptr);
+  if (!baked)
   {
     *this->Impl = Internals();
     output->ShallowCopy(input); // without what some blocks may have got before the fault
@@ -185,122 +187,14 @@ vtkMultiProcessController* vtkSphereAmbientOcclusion::GetController()
   return this->Controller;
 }
 
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticles()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particles);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexels()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.texels);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfRays()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.rays);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfSamplesInside()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.samplesInside);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexelsInside()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.texelsInside);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesBuried()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesBuried);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesDark()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesDark);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesLeftOut()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.leftOut);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextures()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.texturesStored);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextureBytes()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.textureBytes);
-}
-
-int vtkSphereAmbientOcclusion::GetNumberOfThreads()
-{
-  return static_cast<int>(this->Impl->Report.counters.threads);
-}
-
-const char* vtkSphereAmbientOcclusion::GetMethodUsed()
-{
-  return po::nameOfMethod(this->Impl->Report.method);
-}
-
-int vtkSphereAmbientOcclusion::GetNumberOfDirections()
-{
-  return this->Impl->Report.directions;
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesRefined()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.refined);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsClosed()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.spheresClosed);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsNeverSeen()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.spheresNeverSeen);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfDirectionsBlack()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.directionsBlack);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesAlone()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesAlone);
-}
-
-int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
-{
-  return this->Impl->Report.samplesUsed;
-}
-
-double vtkSphereAmbientOcclusion::GetEstimatedError()
-{
-  return this->Impl->Report.estimatedError;
-}
-
-double vtkSphereAmbientOcclusion::GetBakeSeconds()
-{
-  return this->Impl->Seconds;
-}
-
-bool vtkSphereAmbientOcclusion::GetLoadedFromCache()
-{
-  return this->Impl->Report.loaded;
-}
-
 void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "RadiusArray: " << (this->RadiusArray ? this->RadiusArray : "(automatic)") << "\n"
      << indent << "RadiusScale: " << this->RadiusScale << "\n"
      << indent << "ConstantRadius: " << this->ConstantRadius << "\n"
+     << indent << "RadiusFrom: " << this->RadiusFrom << "\n"
+     << indent << "Density: " << this->Density << "\n"
      << indent << "TextureResolution: " << this->TextureResolution << "\n"
      << indent << "SamplesPerTexel: " << this->SamplesPerTexel << "\n"
      << indent << "TargetError: " << this->TargetError << "\n"

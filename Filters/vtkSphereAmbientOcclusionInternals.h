@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkSphereAmbientOcclusionInternals_h
+#define vtkSphereAmbientOcclusionInternals_h
+
+#include "BakeMethods.h"
+#include "vtkSphereAmbientOcclusion.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataObject;
+class vtkPointSet;
+
+/// One execution.
+struct vtkSphereAmbientOcclusion::Internals
+{
+  po::BakeReport Report;
+  double Seconds = 0;
+  std::string RadiusUsed;
+  std::string Estimate;
+
+  /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
+  void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
+    const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluderData);
+
+  void CountParticles(const po::SphereCloud& own, const po::BakeResult& result,
+    const po::BakeSettings& settings, const po::ProcessGroup& group);
+};
+
+#endif
