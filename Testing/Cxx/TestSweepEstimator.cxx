@@ -156,6 +156,32 @@ TEST(SweepEstimator, GivesTheSameBitsForAnyNumberOfThreads)
   EXPECT_EQ(results[2].shares, results[0].shares);
 }
 
+TEST(SweepEstimator, GivesTheSameBitsInAnyNumberOfParts)
+{
+  std::vector<po::Sphere> spheres = mixedScene();
+  addClosedShell(spheres, 30, 1, 3000);
+  const po::SphereCloud cloud = cloudOf(spheres);
+  const po::BakeScene scene(cloud);
+  for (const double distance : { 0.0, 3.0 })
+  {
+    po::BakeSettings settings = floatSettings(16, 49);
+    settings.maximumDistance = distance;
+    settings.background = po::GradientBackground{ { 0, 0, 1 }, 0, 1 };
+    const Estimates whole = estimateAll(po::SweepEstimator(), scene, settings);
+    for (const int parts : { 2, 3, 7 })
+    {
+      po::SweepOptions options;
+      options.parts = parts;
+      const po::SweepEstimator sweep(options);
+      const Estimates divided = estimateAll(sweep, scene, settings);
+      EXPECT_EQ(divided.values, whole.values) << parts;
+      EXPECT_EQ(divided.shares, whole.shares) << parts;
+      EXPECT_GT(sweep.report().estimatedError, 0);
+      EXPECT_DOUBLE_EQ(sweep.bytesPerTexel() * parts, po::SweepEstimator().bytesPerTexel());
+    }
+  }
+}
+
 TEST(SweepEstimator, TouchingCoincidentAndNestedSpheresHaveNoFalseHits)
 {
   const po::SphereCloud coincident =
