@@ -137,7 +137,13 @@ BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter)
 
 RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
 {
-  return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius() };
+  return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius(),
+    static_cast<RadiusSource>(filter.GetRadiusFrom()), filter.GetDensity() };
+}
+
+CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)
+{
+  return { filter.GetUseCache(), textOf(filter.GetCacheDirectory()), filter.GetCacheSizeLimit() };
 }
 
 const char* nameOfMethod(int method)
@@ -163,6 +169,8 @@ OcclusionParameters describeBake(
   parameters.set("radiusArray", textOf(filter.GetRadiusArray()));
   parameters.set("radiusScale", filter.GetRadiusScale());
   parameters.set("constantRadius", filter.GetConstantRadius());
+  parameters.set("radiusFrom", filter.GetRadiusFrom());
+  parameters.set("density", filter.GetDensity());
   describeBackground(filter, parameters);
   parameters.set("targetError", filter.GetTargetError());
   parameters.set("estimatedError", report.estimatedError);
