@@ -19,7 +19,7 @@ namespace po
 namespace
 {
 /// Where some blocks mark duplicate points all must, or the marks are lost when they are appended.
-void ensureGhostArray(vtkPolyData& block)
+void ensureGhostArray(vtkPointSet& block)
 {
   if (!block.GetPointGhostArray())
   {
@@ -31,13 +31,13 @@ void ensureGhostArray(vtkPolyData& block)
   }
 }
 
-vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPolyData*>& blocks)
+vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPointSet*>& blocks)
 {
   const bool anyGhosts = std::any_of(blocks.begin(), blocks.end(),
-    [](vtkPolyData* block) { return block->GetPointGhostArray() != nullptr; });
+    [](vtkPointSet* block) { return block->GetPointGhostArray() != nullptr; });
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  for (vtkPolyData* block : blocks)
+  for (vtkPointSet* block : blocks)
   {
     const vtkSmartPointer<vtkPolyData> points = withoutCells(*block);
     if (anyGhosts)
@@ -126,7 +126,7 @@ vtkSmartPointer<vtkDataArray> copyTable(
     : copyRows<vtkFloatArray>(table.floats, texels, rows);
 }
 
-void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offset,
+void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offset,
   const BakeResult& result, const OcclusionParameters& parameters)
 {
   const vtkIdType points = block->GetNumberOfPoints();
@@ -149,16 +149,16 @@ void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offs
 }
 }
 
-std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
+std::vector<vtkPointSet*> particleBlocks(vtkDataObject* data)
 {
-  if (auto* particles = vtkPolyData::SafeDownCast(data))
+  if (auto* particles = vtkPointSet::SafeDownCast(data))
   {
     return { particles };
   }
-  std::vector<vtkPolyData*> blocks;
+  std::vector<vtkPointSet*> blocks;
   for (vtkDataSet* block : blocksWithPoints(data))
   {
-    if (auto* particles = vtkPolyData::SafeDownCast(block))
+    if (auto* particles = vtkPointSet::SafeDownCast(block))
     {
       blocks.push_back(particles);
     }
@@ -166,7 +166,7 @@ std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
   return blocks;
 }
 
-std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
+std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
   const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
   const ProcessGroup& group)
 {
@@ -179,17 +179,17 @@ std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
   return readSphereCloud(*all, settings, error, frame, group);
 }
 
-void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,
+void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& cloud,
   const BakeResult& result, const OcclusionParameters& parameters)
 {
   std::size_t points = 0;
-  for (vtkPolyData* block : blocks)
+  for (vtkPointSet* block : blocks)
   {
     points += static_cast<std::size_t>(block->GetNumberOfPoints());
   }
   const PointResults all = scatter(cloud, result, points);
   std::size_t offset = 0;
-  for (vtkPolyData* block : blocks)
+  for (vtkPointSet* block : blocks)
   {
     attachToBlock(block, all, offset, result, parameters);
     offset += static_cast<std::size_t>(block->GetNumberOfPoints());
