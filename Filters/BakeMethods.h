@@ -25,6 +25,7 @@ struct BakeReport
   std::size_t textureBytes = 0;
   std::size_t occluderSpheres = 0;
   std::size_t occluderTriangles = 0;
+  bool loaded = false; ///< from a cache, instead of a bake
 };
 
 /// What a process bakes.

@@ -140,6 +140,11 @@ RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
   return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius() };
 }
 
+CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)
+{
+  return { filter.GetUseCache(), textOf(filter.GetCacheDirectory()), filter.GetCacheSizeLimit() };
+}
+
 const char* nameOfMethod(int method)
 {
   return MethodNames[method];

@@ -4,6 +4,7 @@
 
 // From the parameters of the filter to the settings of the core, and to the record of a bake.
 
+#include "BakeCache.h"
 #include "BakeMethods.h"
 #include "BakeSettings.h"
 #include "OcclusionParameters.h"
@@ -18,6 +19,8 @@ namespace po
 [[nodiscard]] BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter);
 
 [[nodiscard]] RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter);
+
+[[nodiscard]] CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter);
 
 [[nodiscard]] const char* nameOfMethod(int method);
 

@@ -2,25 +2,21 @@
 #include "OcclusionTextureFile.h"
 
 #include "ExrFile.h"
+#include "OcclusionTextureLayout.h"
 
 #include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
 #include <ImfIntAttribute.h>
 #include <ImfMultiPartInputFile.h>
-#include <ImfMultiPartOutputFile.h>
-#include <ImfOutputPart.h>
 #include <ImfPartType.h>
-#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
 #include <ImfTiledInputPart.h>
-#include <ImfTiledOutputPart.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -30,163 +26,8 @@ namespace po
 {
 namespace
 {
-constexpr int MaximumResolution = 1024;
-constexpr std::int64_t MaximumCount = std::int64_t{ 1 } << 31;
-
 /// The widest atlas is ceil(sqrt(2^31)) tiles; its pixels are checked against the file's size.
-constexpr ExrLimits Limits = { 1 << 26, 1 << 26, MaximumResolution, std::int64_t{ 1 } << 40 };
-
-/// ZIP makes the smallest files of the lossless kinds. Measured with 20,000 textures of 16 x 16 and
-/// 49 samples a texel, in percent of the bare floats and seconds to write and to read: NONE 103,
-/// .04, .03; RLE 102, .08, .04; ZIPS and ZIP 89, .68, .18; PIZ 103, 18, .03. At 64 x 64 ZIP comes
-/// to 55 %, at 8 x 8 nothing pays. The noise of the samples is what does not compress.
-constexpr Imf::Compression TextureCompression = Imf::ZIP_COMPRESSION;
-constexpr Imf::Compression ParticleCompression = Imf::ZIP_COMPRESSION;
-
-constexpr const char* TexturesPart = "textures";
-constexpr const char* ParticlesPart = "particles";
-constexpr const char* TexelChannel = "Y";
-constexpr const char* RowChannel = "texture";
-constexpr const char* MeanChannel = "AO";
-constexpr const char* TextureCountAttribute = "textureCount";
-constexpr const char* ParticleCountAttribute = "particleCount";
-
-/// A nearly square arrangement of `count` things in rows. Never empty, as no EXR image may be.
-struct Grid
-{
-  explicit Grid(std::int64_t count)
-    : columns(std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))))))
-    , rows(std::max<int>(1, static_cast<int>((count + columns - 1) / columns)))
-  {
-  }
-  int columns;
-  int rows;
-};
-
-Imf::Header texturesHeader(const OcclusionTextureSource& source)
-{
-  const Grid grid(source.textureCount);
-  const int side = source.resolution;
-  Imf::Header header(grid.columns * side, grid.rows * side);
-  header.setName(TexturesPart);
-  header.setType(Imf::TILEDIMAGE);
-  header.compression() = TextureCompression;
-  header.channels().insert(TexelChannel, Imf::Channel(Imf::FLOAT));
-  header.setTileDescription(Imf::TileDescription(side, side, Imf::ONE_LEVEL));
-  header.insert(TextureCountAttribute, Imf::IntAttribute(static_cast<int>(source.textureCount)));
-  header.insert(ParticleCountAttribute, Imf::IntAttribute(static_cast<int>(source.particleCount)));
-  header.insert(ParametersArray, Imf::StringVectorAttribute(source.parameters.toStrings()));
-  Imf::addComments(header,
-    "Ambient occlusion baked onto particles: one tile is the texture of a particle, linear "
-    "visibility by polar angle (down) and azimuth (right).");
-  return header;
-}
-
-/// All parts of a file must have the same display window: that of the atlas.
-Imf::Header particlesHeader(const OcclusionTextureSource& source, const Imf::Header& textures)
-{
-  const Grid grid(source.particleCount);
-  const IMATH_NAMESPACE::Box2i window(V2i(0), V2i(grid.columns - 1, grid.rows - 1));
-  Imf::Header header(textures.displayWindow(), window);
-  header.setName(ParticlesPart);
-  header.setType(Imf::SCANLINEIMAGE);
-  header.compression() = ParticleCompression;
-  header.channels().insert(RowChannel, Imf::Channel(Imf::UINT));
-  header.channels().insert(MeanChannel, Imf::Channel(Imf::FLOAT));
-  return header;
-}
-
-/// Every tile goes through the same buffer: coordinates are relative to the tile.
-Imf::FrameBuffer tileBuffer(float* texels, int side)
-{
-  Imf::FrameBuffer frame;
-  frame.insert(TexelChannel,
-    Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(texels), sizeof(float), sizeof(float) * side, 1,
-      1, 0.0, true, true));
-  return frame;
-}
-
-/// OpenEXR wants pointers to mutable memory for writing too, but does not change it.
-Imf::FrameBuffer particleBuffer(
-  const std::int32_t* rows, const float* means, int width, int firstLine, int lines)
-{
-  const V2i origin(0, firstLine);
-  Imf::FrameBuffer frame;
-  frame.insert(RowChannel, Imf::Slice::Make(Imf::UINT, rows, origin, width, lines));
-  frame.insert(MeanChannel, Imf::Slice::Make(Imf::FLOAT, means, origin, width, lines));
-  return frame;
-}
-
-void writeTextures(Imf::MultiPartOutputFile& file, const OcclusionTextureSource& source)
-{
-  const Grid grid(source.textureCount);
-  std::vector<float> texels(std::size_t(source.resolution) * source.resolution, 0.0f);
-  Imf::TiledOutputPart part(file, 0);
-  part.setFrameBuffer(tileBuffer(texels.data(), source.resolution));
-  for (std::int64_t row = 0; row < std::int64_t{ grid.columns } * grid.rows; ++row)
-  {
-    if (row < source.textureCount)
-    {
-      source.texture(row, texels.data());
-    }
-    else
-    {
-      std::fill(texels.begin(), texels.end(), 0.0f);
-    }
-    part.writeTile(static_cast<int>(row % grid.columns), static_cast<int>(row / grid.columns));
-  }
-}
-
-/// Whole lines are written from the caller's memory, the last one from a padded copy.
-void writeParticles(Imf::MultiPartOutputFile& file, const OcclusionTextureSource& source)
-{
-  const Grid grid(source.particleCount);
-  const int wholeLines = static_cast<int>(source.particleCount / grid.columns);
-  Imf::OutputPart part(file, 1);
-  if (wholeLines > 0)
-  {
-    part.setFrameBuffer(particleBuffer(source.rows, source.means, grid.columns, 0, wholeLines));
-    part.writePixels(wholeLines);
-  }
-  if (wholeLines < grid.rows)
-  {
-    std::vector<std::int32_t> rows(grid.columns, -1);
-    std::vector<float> means(grid.columns, 0.0f);
-    const std::int64_t done = std::int64_t{ wholeLines } * grid.columns;
-    std::copy(source.rows + done, source.rows + source.particleCount, rows.begin());
-    std::copy(source.means + done, source.means + source.particleCount, means.begin());
-    part.setFrameBuffer(particleBuffer(rows.data(), means.data(), grid.columns, wholeLines, 1));
-    part.writePixels(1);
-  }
-}
-
-void requireWritable(const std::string& fileName, const OcclusionTextureSource& source)
-{
-  const std::string prefix = "Cannot write \"" + fileName + "\": ";
-  if (source.resolution < 1 || source.resolution > MaximumResolution)
-  {
-    throw ExrError(prefix + "textures of " + std::to_string(source.resolution) +
-      " texels a side; 1 to " + std::to_string(MaximumResolution) + " are possible.");
-  }
-  if (source.textureCount >= MaximumCount || source.particleCount >= MaximumCount)
-  {
-    throw ExrError(prefix + "more than 2^31 - 1 textures or particles; split the data.");
-  }
-}
-}
-
-void writeOcclusionTextures(const std::string& fileName, const OcclusionTextureSource& source)
-{
-  requireWritable(fileName, source);
-  writeExrFile(fileName,
-    [&](Imf::OStream& stream)
-    {
-      const Imf::Header textures = texturesHeader(source);
-      const std::array<Imf::Header, 2> headers = { textures, particlesHeader(source, textures) };
-      Imf::MultiPartOutputFile file(stream, headers.data(), static_cast<int>(headers.size()));
-      writeTextures(file, source);
-      writeParticles(file, source);
-    });
+constexpr ExrLimits Limits = { 1 << 26, 1 << 26, MaximumTileSide, std::int64_t{ 1 } << 40 };
 }
 
 struct OcclusionTextureFile::Internals
@@ -198,6 +39,9 @@ struct OcclusionTextureFile::Internals
   std::int64_t textureCount = 0;
   std::int64_t particleCount = 0;
   OcclusionParameters parameters;
+  std::string geometry;
+  TexelPrecision precision = TexelPrecision::Float;
+  std::mutex mutex; ///< OpenEXR keeps where a tile goes in the object that reads it
 
   void open();
   void readHeader();
@@ -241,6 +85,12 @@ void OcclusionTextureFile::Internals::readHeader()
   particleCount = readCount(ParticleCountAttribute);
   resolution = static_cast<int>(header.tileDescription().xSize);
   parameters = OcclusionParameters::fromStrings(strings->value());
+  if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(GeometryAttribute))
+  {
+    geometry = text->value();
+  }
+  const Imf::Channel* texels = header.channels().findChannel(TexelChannel);
+  precision = texels && texels->type == Imf::HALF ? TexelPrecision::Half : TexelPrecision::Float;
 }
 
 /// Counts, tiles and windows must be what the writer makes of them: from here on they can be
@@ -253,8 +103,8 @@ void OcclusionTextureFile::Internals::requireSizes() const
   const Imf::TileDescription& tiles = file->header(0).tileDescription();
   const Imf::Header& particles = file->header(1);
   const std::int64_t side = resolution;
-  const Grid textureGrid(textureCount);
-  const Grid particleGrid(particleCount);
+  const TileGrid textureGrid(textureCount);
+  const TileGrid particleGrid(particleCount);
   const bool consistent = tiles.ySize == tiles.xSize && tiles.mode == Imf::ONE_LEVEL &&
     is(window(0), textureGrid.columns * side, textureGrid.rows * side) &&
     is(window(1), particleGrid.columns, particleGrid.rows) &&
@@ -276,7 +126,8 @@ void OcclusionTextureFile::Internals::requirePlausibleSize() const
   constexpr double LargestRatio = 1032.0;
   const double fileBytes = static_cast<double>(std::filesystem::file_size(fileName));
   const double texels = double(textureCount) * resolution * resolution;
-  const double bytes = 4.0 * texels + 8.0 * static_cast<double>(particleCount);
+  const double bytesPerTexel = precision == TexelPrecision::Half ? 2.0 : 4.0;
+  const double bytes = bytesPerTexel * texels + 8.0 * static_cast<double>(particleCount);
   if (bytes > LargestRatio * fileBytes)
   {
     refuseExr(fileName,
@@ -324,7 +175,17 @@ const OcclusionParameters& OcclusionTextureFile::parameters() const
   return internals_->parameters;
 }
 
-void OcclusionTextureFile::readTexture(std::int64_t row, float* texels)
+const std::string& OcclusionTextureFile::geometry() const
+{
+  return internals_->geometry;
+}
+
+TexelPrecision OcclusionTextureFile::precision() const
+{
+  return internals_->precision;
+}
+
+void OcclusionTextureFile::readTexture(std::int64_t row, float* texels) const
 {
   Internals& file = *internals_;
   if (row < 0 || row >= file.textureCount)
@@ -336,21 +197,23 @@ void OcclusionTextureFile::readTexture(std::int64_t row, float* texels)
   withExrReadErrors(file.fileName,
     [&]()
     {
-      const Grid grid(file.textureCount);
-      file.textures->setFrameBuffer(tileBuffer(texels, file.resolution));
+      const TileGrid grid(file.textureCount);
+      const std::lock_guard lock(file.mutex);
+      file.textures->setFrameBuffer(tileBuffer(Imf::FLOAT, texels, file.resolution));
       file.textures->readTile(
         static_cast<int>(row % grid.columns), static_cast<int>(row / grid.columns));
     });
 }
 
-void OcclusionTextureFile::readParticles(std::int32_t* rows, float* means)
+void OcclusionTextureFile::readParticles(std::int32_t* rows, float* means) const
 {
   Internals& file = *internals_;
-  const Grid grid(file.particleCount);
+  const TileGrid grid(file.particleCount);
   const int wholeLines = static_cast<int>(file.particleCount / grid.columns);
   withExrReadErrors(file.fileName,
     [&]()
     {
+      const std::lock_guard lock(file.mutex);
       Imf::InputPart part(*file.file, 1);
       if (wholeLines > 0)
       {

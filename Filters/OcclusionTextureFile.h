@@ -15,19 +15,28 @@
 //
 // A file has two parts, since OpenEXR allows one layout a part:
 //
-// "textures", tiled, one FLOAT channel Y of linear values. One T x T tile is one texture, so that
-// a texture can be read without the others. Tiles fill a grid that is nearly square, row by row:
-// the file opens in any viewer as an atlas, and both sides stay small for any number of textures.
-// Tiles after the last texture are zero. The first texel row of a texture (at +z) is on top.
+// "textures", tiled, one channel Y of linear values, FLOAT or HALF. One T x T tile is one texture,
+// so that a texture can be read without the others. Tiles fill a grid that is nearly square, row by
+// row: the file opens in any viewer as an atlas, and both sides stay small for any number of
+// textures. Tiles after the last texture are zero. The first texel row of a texture (at +z) is on
+// top.
 //
 // "particles", scan lines, a UINT channel "texture" (row of the particle's texture in the table;
 // 4294967295 = none) and a FLOAT channel "AO" (mean visibility), folded in rows of equal width. The
 // rest of the last row is padding.
 //
-// The header of "textures" holds the counts (int "textureCount", "particleCount") and the bake's
-// parameters (string vector "AmbientOcclusionParameters" of "key=value" in their order).
+// The header of "textures" holds the counts (int "textureCount", "particleCount"), the bake's
+// parameters (string vector "AmbientOcclusionParameters" of "key=value" in their order) and, as
+// string "geometry", what hashGeometry says of the particles.
 namespace po
 {
+/// How texels are stored in a file.
+enum class TexelPrecision
+{
+  Float = 0, ///< 32 bits
+  Half = 1   ///< 16 bits: rounded by up to 1/2048 of the value
+};
+
 /// A texture table as the writer needs it. Pointers are borrowed.
 struct OcclusionTextureSource
 {
@@ -35,18 +44,23 @@ struct OcclusionTextureSource
   std::int64_t textureCount = 0;
   std::int64_t particleCount = 0;
   OcclusionParameters parameters;
+  std::string geometry; ///< of the particles, see hashGeometry; may be empty
+  /// Half needs values of at most 65,504; bytes of UInt8Gamma2 come back as they were where the
+  /// maximum is at least 1/128.
+  TexelPrecision precision = TexelPrecision::Float;
   /// Stores the T * T linear values of a texture; called once a texture in ascending order.
   std::function<void(std::int64_t row, float* texels)> texture;
   const std::int32_t* rows = nullptr; ///< particleCount rows; -1 = no texture
   const float* means = nullptr;       ///< particleCount mean visibilities
 };
 
-/// Writes the file beside and renames it. Throws a std::runtime_error that names the file.
+/// Writes the file beside and renames it; holds one texture at a time. Throws a std::runtime_error
+/// that names the file.
 PARTICLEOCCLUSIONFILTERS_EXPORT void writeOcclusionTextures(
   const std::string& fileName, const OcclusionTextureSource& source);
 
 /// A texture file that is open for reading. All members throw a std::runtime_error that names the
-/// file, the fault and the cure.
+/// file, the fault and the cure. Threads may read from one object at the same time.
 class PARTICLEOCCLUSIONFILTERS_EXPORT OcclusionTextureFile
 {
 public:
@@ -60,12 +74,14 @@ public:
   [[nodiscard]] std::int64_t textureCount() const;
   [[nodiscard]] std::int64_t particleCount() const;
   [[nodiscard]] const OcclusionParameters& parameters() const;
+  [[nodiscard]] const std::string& geometry() const; ///< empty if the file does not say it
+  [[nodiscard]] TexelPrecision precision() const;
 
   /// Reads the T * T linear values of one texture: exactly one tile of the file.
-  void readTexture(std::int64_t row, float* texels);
+  void readTexture(std::int64_t row, float* texels) const;
 
   /// Reads the row (-1 = none, else checked against textureCount) and the mean of every particle.
-  void readParticles(std::int32_t* rows, float* means);
+  void readParticles(std::int32_t* rows, float* means) const;
 
 private:
   struct Internals;

@@ -2,6 +2,7 @@
 #include "vtkOcclusionTextureReader.h"
 
 #include "Gamma2.h"
+#include "GeometryHash.h"
 #include "OcclusionParameters.h"
 #include "OcclusionTextureFile.h"
 
@@ -116,22 +117,41 @@ void requireSameParticles(
   }
 }
 
+/// What is wrong with the particles that textures are loaded onto, or nothing.
+std::string differenceOf(
+  const std::string& fileName, const po::OcclusionTextureFile& file, vtkPolyData* input)
+{
+  const po::OcclusionParameters& parameters = file.parameters();
+  const std::string radii = parameters.has("radiusArray") ? parameters.get("radiusArray") : "";
+  if (file.geometry().empty() || file.geometry() == po::hashGeometry(*input, radii))
+  {
+    return {};
+  }
+  return "The textures of \"" + fileName +
+    "\" were saved for particles of other positions, radii or order: the occlusion shown may be "
+    "wrong. Choose the data set and time step that was baked, or bake again.";
+}
+
 /// Everything is read into `result` first, so that a failure leaves nothing half-read in the
 /// output.
-void readOnto(
+/// Returns a warning or nothing.
+std::string readOnto(
   const std::string& fileName, vtkPolyData* input, vtkPolyData* output, const Progress& progress)
 {
+  std::string warning;
   po::OcclusionTextureFile file(fileName);
   vtkNew<vtkPolyData> result;
   if (input)
   {
     requireSameParticles(fileName, file, input);
+    warning = differenceOf(fileName, file, input);
     result->ShallowCopy(input);
     addParticleArrays(file, result->GetPointData());
   }
   result->GetFieldData()->AddArray(readTable(file, progress));
   file.parameters().toFieldData(result->GetFieldData());
   output->ShallowCopy(result);
+  return warning;
 }
 }
 
@@ -159,8 +179,12 @@ int vtkOcclusionTextureReader::RequestData(
   this->SetErrorCode(vtkErrorCode::NoError);
   try
   {
-    readOnto(this->FileName, vtkPolyData::GetData(inputVector[0]),
+    const std::string warning = readOnto(this->FileName, vtkPolyData::GetData(inputVector[0]),
       vtkPolyData::GetData(outputVector), [this](double done) { this->UpdateProgress(done); });
+    if (!warning.empty())
+    {
+      vtkWarningMacro(<< warning);
+    }
     return 1;
   }
   catch (const std::bad_alloc&)

@@ -10,6 +10,9 @@
  * it is. The particles must be as many, and in the same order, as when the file was written.
  * Without an input, the output has the field data only.
  *
+ * Particles that are as many but not the same, by the hash in the file of their positions and
+ * radii, get the textures all the same, and one warning: their shadows may be wrong.
+ *
  * A file that is missing, foreign, damaged or of another number of particles gives one error and an
  * empty output.
  */

@@ -2,6 +2,7 @@
 #include "vtkOcclusionTextureWriter.h"
 
 #include "Gamma2.h"
+#include "GeometryHash.h"
 #include "OcclusionParameters.h"
 #include "OcclusionTextureFile.h"
 
@@ -122,7 +123,33 @@ TextureFunction linearTextures(vtkFieldData* fields, const po::OcclusionParamete
     po::UInt8Gamma2 + " and " + po::Float32Linear + " can be written.");
 }
 
-po::OcclusionTextureSource describeInput(vtkPolyData* input)
+/// The smallest maximum with which all bytes survive: below, halves are denormal where bytes are
+/// small, and too coarse for them.
+constexpr double SmallestMaximumOfHalves = 1.0 / 128;
+
+po::TexelPrecision requirePrecision(int precision, const po::OcclusionParameters& parameters)
+{
+  if (precision == vtkOcclusionTextureWriter::Float)
+  {
+    return po::TexelPrecision::Float;
+  }
+  const double maximum =
+    parameters.get("encoding") == po::UInt8Gamma2 ? parameters.getDouble("maximum") : 0;
+  if (maximum > 0 && maximum < SmallestMaximumOfHalves)
+  {
+    throw std::runtime_error("The largest value of the textures is " + std::to_string(maximum) +
+      ", too small for half-precision floats to keep all steps; choose the Precision Float.");
+  }
+  return po::TexelPrecision::Half;
+}
+
+std::string geometryOf(vtkPolyData* input, const po::OcclusionParameters& parameters)
+{
+  return po::hashGeometry(
+    *input, parameters.has("radiusArray") ? parameters.get("radiusArray") : std::string());
+}
+
+po::OcclusionTextureSource describeInput(vtkPolyData* input, int precision)
 {
   const vtkIdType points = input->GetNumberOfPoints();
   auto* means =
@@ -137,6 +164,8 @@ po::OcclusionTextureSource describeInput(vtkPolyData* input)
 
   po::OcclusionTextureSource source;
   source.parameters = po::OcclusionParameters::fromFieldData(input->GetFieldData());
+  source.geometry = geometryOf(input, source.parameters);
+  source.precision = requirePrecision(precision, source.parameters);
   source.resolution = requireResolution(source.parameters, table);
   source.textureCount = table->GetNumberOfTuples();
   source.particleCount = points;
@@ -174,7 +203,8 @@ void vtkOcclusionTextureWriter::WriteData()
   }
   try
   {
-    po::OcclusionTextureSource source = describeInput(vtkPolyData::SafeDownCast(this->GetInput()));
+    po::OcclusionTextureSource source =
+      describeInput(vtkPolyData::SafeDownCast(this->GetInput()), this->Precision);
     const TextureFunction texture = source.texture;
     const double count = static_cast<double>(source.textureCount);
     source.texture = [&](std::int64_t row, float* texels)
@@ -203,5 +233,6 @@ void vtkOcclusionTextureWriter::WriteData()
 void vtkOcclusionTextureWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n';
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << '\n'
+     << indent << "Precision: " << this->Precision << '\n';
 }

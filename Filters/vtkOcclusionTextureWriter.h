@@ -8,9 +8,11 @@
  * tuple a texture, T*T components, uint8 or float32) and AmbientOcclusionParameters (strings
  * "key=value").
  *
- * The file holds linear values as floats, one tile a texture, so that any viewer shows them and a
- * single texture can be read alone; and the mean and the texture of every particle. Points are not
- * written: keep them in a .vtp file. vtkOcclusionTextureReader puts the textures back, bit by bit.
+ * The file holds linear values, one compressed tile a texture, so that any viewer shows them and a
+ * single texture can be read alone; the mean and the texture of every particle; and a hash of the
+ * particles, so that the reader notices if they are others. Points are not written: keep them in a
+ * .vtp file. vtkOcclusionTextureReader puts the textures back: bit by bit, but for a table of
+ * floats with Precision Half. One texture at a time is held in memory.
  *
  * The file appears under its name only when it is complete. On failure GetErrorCode() is set,
  * Write() returns 0, one error says what is wrong, and a file of that name that existed before is
@@ -35,6 +37,19 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  enum PrecisionType
+  {
+    Float = 0, ///< 32 bits a texel
+    Half = 1   ///< 16 bits: half the size; values are rounded by up to 1/2048 of themselves
+  };
+
+  ///@{
+  /// How texels are stored [Float]. Half is for values up to 65,504. A table of bytes comes back
+  /// from it as it was; one whose maximum is below 1/128 would not, and is an error.
+  vtkSetClampMacro(Precision, int, Float, Half);
+  vtkGetMacro(Precision, int);
+  ///@}
+
   /// Writes the input. Returns 1 on success and 0 on failure.
   int Write() override;
 
@@ -46,6 +61,7 @@ protected:
   void WriteData() override;
 
   char* FileName = nullptr;
+  int Precision = Float;
 
 private:
   vtkOcclusionTextureWriter(const vtkOcclusionTextureWriter&) = delete;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSphereAmbientOcclusion.h"
 
-#include "BakeMethods.h"
+#include "BakeCache.h"
 #include "BakeParameters.h"
 #include "BakedData.h"
 #include "ControllerGroup.h"
@@ -77,7 +77,13 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
 
   po::Progress progress(reportTo(self));
   const int method = po::chooseMethod(self->Method, task, group);
-  po::BakeResult result = po::bakeByMethod(method, task, group, progress, this->Report);
+  std::string warning;
+  po::BakeResult result =
+    po::bakeOrLoad(po::cacheOf(*self), method, task, group, progress, this->Report, warning);
+  if (!warning.empty())
+  {
+    vtkWarningWithObjectMacro(self, << warning);
+  }
   if (result.aborted)
   {
     group.stop(po::WorkState::Aborted);
@@ -191,6 +197,7 @@ vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
 {
   this->SetRadiusArray(nullptr);
   this->SetBackgroundImage(nullptr);
+  this->SetCacheDirectory(nullptr);
 }
 
 int vtkSphereAmbientOcclusion::FillInputPortInformation(int port, vtkInformation* info)
@@ -360,6 +367,11 @@ double vtkSphereAmbientOcclusion::GetBakeSeconds()
   return this->Impl->Seconds;
 }
 
+bool vtkSphereAmbientOcclusion::GetLoadedFromCache()
+{
+  return this->Impl->Report.loaded;
+}
+
 void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
@@ -375,5 +387,8 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "DilateInside: " << this->DilateInside << "\n"
      << indent << "InsideThreshold: " << this->InsideThreshold << "\n"
      << indent << "Encoding: " << this->Encoding << "\n"
-     << indent << "Seed: " << this->Seed << "\n";
+     << indent << "Seed: " << this->Seed << "\n"
+     << indent << "UseCache: " << this->UseCache << "\n"
+     << indent << "CacheDirectory: " << (this->CacheDirectory ? this->CacheDirectory : "") << "\n"
+     << indent << "CacheSizeLimit: " << this->CacheSizeLimit << "\n";
 }

@@ -51,6 +51,11 @@ class vtkMultiProcessController;
  * the limits of the process, and of the environment variable PARTICLEOCCLUSION_MEMORY_LIMIT, in
  * KiB, for batch jobs and containers whose limit the system does not tell.
  *
+ * With UseCache a bake is kept in CacheDirectory, and loaded again, bit by bit, when the same
+ * particles are baked with the same parameters: after a change that was undone, in a later session,
+ * at a time step that was there before, by another process. What goes wrong with the cache is a
+ * warning; entries that are damaged or of other data are noticed and replaced.
+ *
  * The processes of Controller bake together: each gets the textures of its own particles, in the
  * light that the particles and occluders of all processes leave. 16 bytes of each sphere travel; of
  * those beyond MaximumDistance nothing does. Textures are the same bits for any number of processes
@@ -214,6 +219,27 @@ public:
   ///@}
 
   ///@{
+  /// Keep bakes in a cache and load from it [off].
+  vtkSetMacro(UseCache, bool);
+  vtkGetMacro(UseCache, bool);
+  vtkBooleanMacro(UseCache, bool);
+  ///@}
+
+  ///@{
+  /// Folder of the cache, which is made if need be. Empty [default]: ParticleOcclusion in the
+  /// user's cache directory, $XDG_CACHE_HOME or ~/.cache. Processes and users may share a folder.
+  vtkSetFilePathMacro(CacheDirectory);
+  vtkGetFilePathMacro(CacheDirectory);
+  ///@}
+
+  ///@{
+  /// Size of the folder, in MiB, beyond which the bakes that were used least recently are removed;
+  /// 0 = never [4096].
+  vtkSetClampMacro(CacheSizeLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(CacheSizeLimit, int);
+  ///@}
+
+  ///@{
   /// The processes whose particles make up one set [the global controller]. Null: this one alone.
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
@@ -243,6 +269,8 @@ public:
   int GetNumberOfSamplesUsed(); ///< differs from SamplesPerTexel with Reference and TargetError
   double GetEstimatedError();   ///< RMS error of linear visibility, 0 where none was found
   double GetBakeSeconds();      ///< wall time of the whole execution
+  /// Whether there was no bake: the other numbers are then those of the bake that was kept.
+  bool GetLoadedFromCache();
   ///@}
 
 protected:
@@ -273,6 +301,9 @@ private:
   double InsideThreshold = 0.05;
   int Encoding = UInt8Gamma2;
   int Seed = 1;
+  bool UseCache = false;
+  char* CacheDirectory = nullptr;
+  int CacheSizeLimit = 4096;
   vtkSmartPointer<vtkMultiProcessController> Controller;
 
   struct Internals;

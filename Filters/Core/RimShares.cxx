@@ -102,15 +102,21 @@ inline Floats shareBeyond(Floats distance, const Place& place)
   return hn::IfThenElse(hn::Lt(distance, hn::Zero(d)), hn::Sub(one, share), share);
 }
 
-inline Floats strengthOf(const Place& place, const RimWork& work, std::size_t i)
+/// Strengths and insides of the pixels of one vector.
+inline void storeShares(const Place& place, RimWork& work, std::size_t i)
 {
   const Tag d;
+  const Floats one = hn::Set(d, 1.0F), zero = hn::Zero(d);
   const Floats outer = hn::Sub(place.distance, hn::LoadU(d, work.widths.data() + i));
-  const Floats share = hn::Sub(shareBeyond(place.distance, place), shareBeyond(outer, place));
-  const auto isEdge = hn::Gt(hn::LoadU(d, work.isEdge.data() + i), hn::Zero(d));
+  const Floats beyond = shareBeyond(place.distance, place);
+  const Floats share = hn::Sub(beyond, shareBeyond(outer, place));
+  const auto isEdge = hn::Gt(hn::LoadU(d, work.isEdge.data() + i), zero);
   const auto isFar = hn::Gt(hn::Abs(place.distance), hn::Set(d, FarFromEdge));
-  const Floats covered = hn::IfThenElse(hn::And(isEdge, isFar), hn::Set(d, 1.0F), share);
-  return hn::Mul(covered, hn::LoadU(d, work.weights.data() + i));
+  const Floats covered = hn::IfThenElse(hn::And(isEdge, isFar), one, share);
+  const Floats inside = hn::IfThenElseZero(hn::Ge(place.distance, zero), hn::Sub(one, beyond));
+  const Floats weights = hn::LoadU(d, work.weights.data() + i);
+  hn::StoreU(hn::Mul(covered, weights), d, work.strengths.data() + i);
+  hn::StoreU(hn::Mul(inside, weights), d, work.insides.data() + i);
 }
 
 /// All vectors have room for whole lanes at their ends; one patch.
@@ -127,7 +133,7 @@ void findSharesOf(const RayPatch& patch, const Rim* rims, RimWork& work)
     }
     const Place place =
       placeOf(columns, patch, hn::LoadU(d, work.x.data() + i), hn::LoadU(d, work.y.data() + i));
-    hn::StoreU(strengthOf(place, work, i), d, work.strengths.data() + i);
+    storeShares(place, work, i);
   }
 }
 }
@@ -177,7 +183,7 @@ void RimWork::add(const RimPixel& pixel)
     {
       integers->resize(size);
     }
-    for (auto* floats : { &x, &y, &widths, &weights, &isEdge, &strengths })
+    for (auto* floats : { &x, &y, &widths, &weights, &isEdge, &strengths, &insides })
     {
       floats->resize(size);
     }

@@ -55,7 +55,8 @@ struct RimWork
   std::vector<std::int32_t> rims, pixels;
   std::vector<float> x, y, widths, weights, isEdge;
   std::vector<std::int32_t> frontPixels;
-  std::vector<float> strengths; ///< weight times covered share
+  std::vector<float> strengths; ///< weight times the share that the line covers
+  std::vector<float> insides;   ///< weight times the share within the rim; 0 if the centre is
 
   std::size_t count = 0; ///< of pixels; the vectors are longer
 

@@ -231,6 +231,7 @@ void clearTile(SilhouetteImage& image, int tileX, int tileY)
 SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRule& rule,
   SilhouetteImage& image, const SilhouetteOptions& options)
 {
+  image.inside.clear();
   return paintTiles(
     source, rule, image, options, [&] { return SamplePainter(source, rule, options.findFronts); });
 }

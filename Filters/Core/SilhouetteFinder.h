@@ -36,6 +36,10 @@ struct SilhouetteImage
   std::vector<float> strength; ///< 0: no line, 1: covered by it; row by row from the bottom
   /// Index of a pixel in front of the line, for each pixel that has one; empty unless asked for.
   std::vector<std::int32_t> front;
+  /// Share of a pixel that what is in front of its line covers, where its centre shows what is
+  /// behind; weighted as the strength is, and valid where that is above 0. Empty unless asked for
+  /// and lines are drawn along rims.
+  std::vector<float> inside;
   std::vector<std::uint8_t> tileHasLines; ///< tiles of DepthTileSize pixels
 };
 
@@ -47,7 +51,7 @@ struct SilhouetteCounters
 
 struct SilhouetteOptions
 {
-  bool findFronts = false; ///< fill SilhouetteImage::front
+  bool findFronts = false; ///< fill SilhouetteImage::front and ::inside
   bool skipTiles = true;   ///< off: search all tiles; the result has the same bits
 };
 

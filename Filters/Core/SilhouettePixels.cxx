@@ -46,19 +46,35 @@ private:
   {
     std::uint8_t* rgba = &pixels_.rgba[4 * pixel];
     const float strength = lines_.strength[pixel];
-    rgba[3] = toByte(strength * style_.opacity);
-    pixels_.depth[pixel] = strength > 0 ? depthAt(pixel) : NoLine;
+    if (!(strength > 0))
+    {
+      rgba[3] = 0;
+      pixels_.depth[pixel] = NoLine;
+      return;
+    }
+    const float inside = surroundings_.rgba && !lines_.inside.empty() ? lines_.inside[pixel] : 0;
+    const float covered = strength + inside;
     for (std::size_t channel = 0; channel < 3; ++channel)
     {
-      rgba[channel] = toByte(style_.color[channel]);
+      rgba[channel] = toByte(
+        (strength * lineColor(pixel, channel) + inside * frontColor(pixel, channel)) / covered);
     }
-    if (strength > 0 && style_.darken && surroundings_.rgba)
-    {
-      const std::uint8_t* front =
-        surroundings_.rgba + 4 * static_cast<std::size_t>(lines_.front[pixel]);
-      std::transform(front, front + 3, rgba,
-        [](std::uint8_t value) { return toByte(SilhouetteDarkness / 255 * value); });
-    }
+    rgba[3] = toByte(covered * style_.opacity);
+    pixels_.depth[pixel] = depthAt(pixel);
+  }
+
+  /// Colour of what is in front of a line; 0 where it is not known.
+  [[nodiscard]] float frontColor(std::size_t pixel, std::size_t channel) const
+  {
+    return surroundings_.rgba
+      ? surroundings_.rgba[4 * static_cast<std::size_t>(lines_.front[pixel]) + channel] / 255.0F
+      : 0;
+  }
+
+  [[nodiscard]] float lineColor(std::size_t pixel, std::size_t channel) const
+  {
+    return style_.darken && surroundings_.rgba ? SilhouetteDarkness * frontColor(pixel, channel)
+                                               : style_.color[channel];
   }
 
   [[nodiscard]] float depthAt(std::size_t pixel) const

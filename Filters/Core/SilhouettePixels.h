@@ -22,7 +22,7 @@ constexpr float SilhouetteDarkness = 0.35F;
 /// Lines as pixels to be blended over a picture.
 struct SilhouettePixels
 {
-  std::vector<std::uint8_t> rgba; ///< alpha is the strength of the line times the opacity
+  std::vector<std::uint8_t> rgba; ///< alpha is what they cover of a pixel, times the opacity
   std::vector<float> depth;       ///< window depth of what is in front of the line; 2: no line
   std::vector<std::uint8_t> tileHasLines;
 };
@@ -37,6 +37,10 @@ struct SilhouetteSurroundings
 /// Colours lines. Without a window depth lines lie in front of everything (0). Tiles without lines
 /// are written only where there were lines before. `lines.front` is needed for what is known of
 /// the surroundings.
+///
+/// A line along a rim covers part of a pixel, and the sphere another part, though a picture of one
+/// ray a pixel shows what is behind there. With `surroundings.rgba` that part takes the sphere's
+/// colour: a bright background would shine through between sphere and line otherwise.
 void colorSilhouettes(const SilhouetteImage& lines, const SilhouetteStyle& style,
   const SilhouetteSurroundings& surroundings, SilhouettePixels& pixels);
 }

@@ -191,6 +191,7 @@ private:
         if (findFronts_)
         {
           image.front[pixel] = work.frontPixels[i];
+          image.inside[pixel] = work.insides[i];
         }
       }
     }
@@ -216,6 +217,8 @@ SilhouetteCounters findTracedSilhouettes(const TracedDepth& depth, const Silhoue
   {
     return findSilhouettes(depth, rule, image, options);
   }
+  const auto pixels = static_cast<std::size_t>(depth.width()) * depth.height();
+  image.inside.resize(options.findFronts ? pixels : 0);
   return paintTiles(
     depth, rule, image, options, [&] { return RimPainter(depth, rule, options.findFronts); });
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace po
 {
@@ -48,18 +49,34 @@ TracedDepth depthOf(const std::vector<TracedActor>& actors)
   return TracedDepth(std::move(layers));
 }
 
-SilhouetteScale scaleOf(const std::vector<TracedActor>& actors)
+std::optional<SilhouetteScale> scaleOf(const std::vector<vtkActor*>& actors)
 {
   double radii = 0, count = 0, largest = 0;
-  for (const TracedActor& one : actors)
+  for (vtkActor* actor : actors)
   {
-    const SphereCloud& cloud = one.renderer->cloud();
-    const auto particles = static_cast<double>(cloud.spheres.size());
-    radii += particles * scaleOf(one.actor) * cloud.scale;
+    auto* mapper = vtkRayTracedSphereMapper::SafeDownCast(actor->GetMapper());
+    if (!mapper)
+    {
+      continue;
+    }
+    const double* whole = mapper->GetWholeSet();
+    const SphereCloud& cloud = mapper->GetSphereRenderer().cloud();
+    const double scale = scaleOf(actor);
+    const bool isShared = whole[0] > 0;
+    const double particles = isShared ? whole[0] : static_cast<double>(cloud.spheres.size());
+    radii += particles * scale * (isShared ? whole[1] : cloud.scale);
     count += particles;
-    largest = std::max(largest, one.actor->GetLength());
+    largest = std::max(largest, isShared ? scale * whole[2] : actor->GetLength());
   }
-  return { count > 0 ? radii / count : 0, largest };
+  return count > 0 ? std::optional(SilhouetteScale{ radii / count, largest }) : std::nullopt;
+}
+
+std::vector<vtkActor*> actorsOf(const std::vector<TracedActor>& traced)
+{
+  std::vector<vtkActor*> actors;
+  std::transform(traced.begin(), traced.end(), std::back_inserter(actors),
+    [](const TracedActor& one) { return one.actor; });
+  return actors;
 }
 
 void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth)
@@ -73,9 +90,14 @@ void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>
   }
 }
 
-void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba)
+const std::uint8_t* colorsOf(
+  const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& merged)
 {
-  rgba = actors.front().renderer->rgba();
+  if (actors.size() == 1)
+  {
+    return actors.front().renderer->rgba().data();
+  }
+  merged = actors.front().renderer->rgba();
   std::vector<double> nearest = actors.front().renderer->frame().t;
   for (std::size_t i = 1; i < actors.size(); ++i)
   {
@@ -87,10 +109,11 @@ void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_
       {
         nearest[pixel] = t[pixel];
         std::copy_n(other.begin() + static_cast<std::ptrdiff_t>(4 * pixel), 4,
-          rgba.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
+          merged.begin() + static_cast<std::ptrdiff_t>(4 * pixel));
       }
     }
   }
+  return merged.data();
 }
 
 bool isTile(vtkRenderer* renderer)

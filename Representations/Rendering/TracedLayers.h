@@ -5,6 +5,7 @@
 #include "SilhouettePixels.h"
 #include "TracedDepth.h"
 
+#include <optional>
 #include <vector>
 
 class vtkActor;
@@ -28,14 +29,20 @@ struct TracedActor
 
 [[nodiscard]] TracedDepth depthOf(const std::vector<TracedActor>& actors);
 
-/// Mean radius over all particles, and the largest diagonal of an actor's bounds, in world units.
-[[nodiscard]] SilhouetteScale scaleOf(const std::vector<TracedActor>& actors);
+/// Mean radius over all particles, those of other processes included (see
+/// vtkRayTracedSphereMapper::SetWholeSet), and the largest diagonal of an actor's bounds, in world
+/// units. Nothing if there are no particles.
+[[nodiscard]] std::optional<SilhouetteScale> scaleOf(const std::vector<vtkActor*>& actors);
+
+[[nodiscard]] std::vector<vtkActor*> actorsOf(const std::vector<TracedActor>& traced);
 
 /// Window depth of each pixel, the nearest of all actors.
 void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth);
 
-/// RGBA bytes of each pixel, of the nearest of all actors.
-void mergeColors(const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& rgba);
+/// RGBA bytes of each pixel, of the nearest of all actors. `merged` is where they are put together,
+/// if there is more than one actor.
+[[nodiscard]] const std::uint8_t* colorsOf(
+  const std::vector<TracedActor>& actors, std::vector<std::uint8_t>& merged);
 
 /// Does the window show one tile of a larger picture?
 [[nodiscard]] bool isTile(vtkRenderer* renderer);

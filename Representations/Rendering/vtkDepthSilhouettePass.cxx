@@ -19,6 +19,7 @@
 #include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
 #include "vtkRenderState.h"
+#include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
 #include "vtkSmartPointer.h"
 
@@ -136,6 +137,20 @@ void findNearest(const std::vector<float>& zBuffer, int width, int height, int s
   }
 }
 
+std::vector<vtkActor*> visibleActorsOf(const vtkRenderState* state)
+{
+  std::vector<vtkActor*> actors;
+  for (int i = 0; i < state->GetPropArrayCount(); ++i)
+  {
+    auto* actor = vtkActor::SafeDownCast(state->GetPropArray()[i]);
+    if (actor && actor->GetVisibility())
+    {
+      actors.push_back(actor);
+    }
+  }
+  return actors;
+}
+
 /// All ray-traced spheres in the frame buffer.
 std::vector<po::TracedActor> spheresOf(const vtkRenderState* state, int width, int height)
 {
@@ -195,6 +210,7 @@ struct vtkDepthSilhouettePass::Internals
 {
   po::SilhouettePainter Painter;
   std::vector<vtkSmartPointer<vtkActor>> Actors; ///< that have lines; none: all
+  vtkNew<vtkRenderStepsPass> ActorsPass;         ///< draws them alone
   po::SilhouetteScale Scale;                     ///< of the last whole picture
   bool HasScale = false;
   std::vector<float> ZBuffer, Distances, FrontDepth;
@@ -297,11 +313,11 @@ std::string vtkDepthSilhouettePass::FindInTracedFrames(const vtkRenderState* sta
   Internals& self = *this->Internal;
   const po::SilhouetteViewport viewport = viewportOf(state);
   const auto actors = tracedActorsOf(state, viewport.width, viewport.height);
-  const po::SilhouetteScale& scale = self.scale(po::scaleOf(actors), !isTile(state));
+  const po::SilhouetteScale& scale = self.scale(*po::scaleOf(po::actorsOf(actors)), !isTile(state));
   const po::SilhouetteRule rule = po::resolve(po::silhouetteParametersOf(*this), scale);
   const bool placed = !self.Actors.empty();
   po::findTracedSilhouettes(
-    po::depthOf(actors), rule, self.Lines, { this->Darken || placed, true });
+    po::depthOf(actors), rule, self.Lines, { this->Darken || placed || rule.samples > 1, true });
   self.Margin = margin;
   self.FrontDepth.clear();
   if (placed)
@@ -327,14 +343,13 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
     po::DepthImage<float>{ self.Distances.data(), viewport.width, viewport.height }, samples);
   po::SilhouetteParameters parameters = po::silhouetteParametersOf(*this);
   parameters.samples = samples;
-  const auto spheres = spheresOf(state, viewport.width, viewport.height);
-  if (this->ThresholdUnit != 0 && spheres.empty())
+  const auto ofSpheres = po::scaleOf(visibleActorsOf(state));
+  if (this->ThresholdUnit != 0 && !ofSpheres)
   {
     return "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
   }
   const po::SilhouetteScale& scale = self.scale(
-    spheres.empty() ? po::SilhouetteScale{ 0, po::depthSpread(depth) } : po::scaleOf(spheres),
-    !isTile(state));
+    ofSpheres ? *ofSpheres : po::SilhouetteScale{ 0, po::depthSpread(depth) }, !isTile(state));
   const bool placed = !self.Actors.empty();
   po::findSilhouettes(
     depth, po::resolve(parameters, scale), self.Lines, { this->Darken || placed, true });
@@ -375,7 +390,8 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
   vtkRenderState inside(renderer);
   inside.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
   inside.SetFrameBuffer(frame);
-  this->DelegatePass->Render(&inside);
+  // A delegate may draw all of the renderer's props, as ParaView's does.
+  (self.Actors.empty() ? this->DelegatePass : self.ActorsPass.Get())->Render(&inside);
   const bool traced = spheres && !tracedActorsOf(&inside, width, height).empty();
   std::string error = traced ? this->FindInTracedFrames(&inside, margin)
                              : this->FindInZBuffer(&inside, samples, margin);
@@ -388,7 +404,7 @@ std::string vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state)
   Internals& self = *this->Internal;
   const po::SilhouetteViewport viewport = viewportOf(state);
   po::SilhouetteSurroundings surroundings;
-  if (this->Darken)
+  if (this->Darken || !self.Lines.inside.empty())
   {
     std::string error = self.Painter.readColors(windowOf(state), viewport, self.Colors);
     if (!error.empty())
@@ -410,6 +426,7 @@ void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)
 {
   this->Superclass::ReleaseGraphicsResources(window);
   this->Internal->Painter.releaseGraphicsResources();
+  this->Internal->ActorsPass->ReleaseGraphicsResources(window);
 }
 
 void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)

@@ -118,6 +118,14 @@ public:
   vtkGetMacro(InteractiveRate, double);
   ///@}
 
+  ///@{
+  /// Where several processes draw parts of one set of particles: the number of all of them, their
+  /// mean radius, and the diagonal of their bounds, in the actor's coordinates. Automatic
+  /// thresholds of silhouettes go by it. Default 0, 0, 0: this mapper has the whole set.
+  vtkSetVector3Macro(WholeSet, double);
+  vtkGetVector3Macro(WholeSet, double);
+  ///@}
+
   /// The last frame that was drawn, rows from the bottom, with the point arrays RGBA (uint8), Z
   /// (float32, distance along the eye ray or, in parallel projection, the view direction, in world
   /// units; +infinity on background), AO (float32), N (float32[3], world-space unit normal) and id
@@ -192,6 +200,7 @@ private:
   int SamplesPerPixel = 1;
   bool Progressive = false;
   double InteractiveRate = 15;
+  double WholeSet[3] = { 0, 0, 0 };
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

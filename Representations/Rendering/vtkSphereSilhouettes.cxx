@@ -129,15 +129,11 @@ bool vtkSphereSilhouettes::Find(const po::SilhouetteViewport& place)
     return false;
   }
   const po::SilhouetteRule rule =
-    po::resolve(po::silhouetteParametersOf(*this), po::scaleOf(actors));
+    po::resolve(po::silhouetteParametersOf(*this), *po::scaleOf(po::actorsOf(actors)));
   po::findTracedSilhouettes(po::depthOf(actors), rule, self.Lines, { true, true });
   po::mergeWindowDepth(actors, self.WindowDepth);
-  po::SilhouetteSurroundings surroundings{ nullptr, self.WindowDepth.data() };
-  if (this->Darken)
-  {
-    po::mergeColors(actors, self.Colors);
-    surroundings.rgba = self.Colors.data();
-  }
+  const po::SilhouetteSurroundings surroundings{ po::colorsOf(actors, self.Colors),
+    self.WindowDepth.data() };
   po::colorSilhouettes(self.Lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
   return true;
 }

@@ -15,6 +15,11 @@
 #include "vtkForwardSilhouettesMacro.h"
 #include "vtkNew.h"
 #include "vtkPVRenderView.h"
+#include "vtkWeakPointer.h"
+
+#include <vector>
+
+class vtkDataRepresentation;
 
 class PARTICLEOCCLUSIONREPRESENTATIONS_EXPORT vtkPVRenderViewWithSilhouettes
   : public vtkPVRenderView
@@ -26,15 +31,28 @@ public:
 
   vtkForwardSilhouettesMacro(Silhouettes);
 
+  ///@{
+  /// Representations that alone have lines, as far as they are visible, translucent ones too:
+  /// surfaces, points and the like, and ray-traced spheres. Default: none, all that is opaque has
+  /// lines. Where several processes draw, none can be chosen, which is reported.
+  void AddSilhouetteRepresentation(vtkDataRepresentation* representation);
+  void RemoveAllSilhouetteRepresentations();
+  ///@}
+
 protected:
   vtkPVRenderViewWithSilhouettes();
   ~vtkPVRenderViewWithSilhouettes() override;
+
+  void Render(bool interactive, bool skipRendering) override;
 
 private:
   vtkPVRenderViewWithSilhouettes(const vtkPVRenderViewWithSilhouettes&) = delete;
   void operator=(const vtkPVRenderViewWithSilhouettes&) = delete;
 
+  bool ChooseActors();
+
   vtkNew<vtkDepthSilhouettePass> Silhouettes;
+  std::vector<vtkWeakPointer<vtkDataRepresentation>> Chosen;
 };
 
 #endif

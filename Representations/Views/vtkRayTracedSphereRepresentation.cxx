@@ -10,7 +10,9 @@
 #include "Refinement.h"
 #include "SilhouetteVisibility.h"
 #include "SphereInput.h"
+#include "SphereRenderer.h"
 #include "Tracked.h"
+#include "WholeSet.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
@@ -116,6 +118,7 @@ int vtkRayTracedSphereRepresentation::RequestData(
     vtkWarningMacro(<< warning);
   }
   this->ResolveRadii();
+  this->ShareExtent();
   const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
   this->Internal->Piece = po::pieceToDeliver(this->Internal->Particles, group.rank(), group.size());
   return this->Superclass::RequestData(request, inputVector, outputVector);
@@ -132,6 +135,21 @@ void vtkRayTracedSphereRepresentation::ResolveRadii()
   }
   this->Mapper->SetRadiusArray(radii.array.c_str());
   this->Mapper->SetConstantRadius(radii.constant);
+}
+
+/// Tells the mapper of the particles of all processes.
+void vtkRayTracedSphereRepresentation::ShareExtent()
+{
+  const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
+  if (group.size() > 1)
+  {
+    this->UpdateBounds();
+    const po::SphereCloud& cloud = this->Mapper->GetSphereRenderer().cloud();
+    const po::WholeSet all = po::wholeSetOf({ static_cast<double>(cloud.spheres.size()),
+                                              cloud.scale, vtkBoundingBox(this->Internal->Bounds) },
+      group);
+    this->Mapper->SetWholeSet(all.particles, all.meanRadius, all.bounds.GetDiagonalLength());
+  }
 }
 
 int vtkRayTracedSphereRepresentation::ProcessViewRequest(

@@ -124,6 +124,9 @@ public:
   /// Default: not visible. Only where one process draws all spheres: with several, a view with
   /// silhouettes finds lines after compositing.
   vtkForwardSilhouettesMacro(Silhouettes);
+
+  /// What is drawn in the view.
+  vtkActor* GetActor() { return this->Actor; }
   ///@}
 
   /// 1: numbers become colours by the lookup table; 0: arrays of colours are used as they are.
@@ -168,6 +171,7 @@ private:
   void ProvideData(vtkInformation* inInfo);
   void ReleaseMemory();
   void ResolveRadii();
+  void ShareExtent();
   void UpdateBounds();
   void UpdateColoring();
 

@@ -63,8 +63,9 @@ inline bool isParameter(vtkXMLDataElement* property)
 
 /// Expects that every parameter of a proxy is in `defaults` with the value of the XML, that its
 /// command is "Set" + name, that it has a help text, and that nothing is in the table alone.
-inline void expectDefaultsOfXml(
-  const std::string& file, const std::string& proxyName, const ParameterTable& defaults)
+/// @param prefix only of parameters whose names begin with it
+inline void expectDefaultsOfXml(const std::string& file, const std::string& proxyName,
+  const ParameterTable& defaults, const std::string& prefix = "")
 {
   const std::string path = std::string(PLUGIN_XML_DIR) + "/" + file;
   const auto root = vtk::TakeSmartPointer(vtkXMLUtilities::ReadElementFromFile(path.c_str()));
@@ -80,6 +81,10 @@ inline void expectDefaultsOfXml(
       continue;
     }
     const std::string name = property->GetAttribute("name");
+    if (name.compare(0, prefix.size(), prefix) != 0)
+    {
+      continue;
+    }
     const auto expected = defaults.find(name);
     ASSERT_TRUE(expected != defaults.end()) << name << " has no entry in the test's table";
     ++found;

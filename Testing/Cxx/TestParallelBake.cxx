@@ -11,7 +11,10 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
+#include <random>
+#include <string>
 #include <vector>
 
 namespace
@@ -74,6 +77,55 @@ TEST_P(ParallelBake, WithAMaximumDistanceAHaloIsEnough)
 INSTANTIATE_TEST_SUITE_P(Methods, ParallelBake,
   testing::Values(vtkSphereAmbientOcclusion::Sweep, vtkSphereAmbientOcclusion::Embree,
     vtkSphereAmbientOcclusion::Reference));
+
+/// A name that all processes know.
+std::string sharedFolder()
+{
+  unsigned number = std::random_device()();
+  processes()->Broadcast(&number, 1, 0);
+  return (std::filesystem::temp_directory_path() / ("ParticleOcclusion-" + std::to_string(number)))
+    .string();
+}
+
+double meanAt(vtkPolyData* data, vtkIdType i)
+{
+  return data->GetPointData()->GetArray("AmbientOcclusion")->GetComponent(i, 0);
+}
+
+TEST(ParallelBakeFilter, LoadsFromACacheOnlyIfAllCan)
+{
+  const auto whole = mixedCloud(300);
+  const std::string folder = sharedFolder();
+  const auto prepare = [&](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->UseCacheOn();
+    filter->SetCacheDirectory(folder.c_str());
+  };
+  const auto own = ownPart(whole, interleaved);
+  const auto first = bake(own, true, prepare);
+  EXPECT_FALSE(first->GetLoadedFromCache());
+  const auto second = bake(own, true, prepare);
+  EXPECT_TRUE(second->GetLoadedFromCache());
+  for (vtkIdType i = 0; i < own->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_EQ(meanAt(output(first), i), meanAt(output(second), i));
+  }
+  EXPECT_EQ(first->GetNumberOfTextures(), second->GetNumberOfTextures());
+  processes()->Barrier();
+  const auto entries = std::filesystem::directory_iterator(folder);
+  EXPECT_EQ(std::distance(entries, {}), size());
+  processes()->Barrier();
+  if (rank() == 0)
+  {
+    std::filesystem::remove(std::filesystem::directory_iterator(folder)->path());
+  }
+  processes()->Barrier();
+  EXPECT_FALSE(bake(own, true, prepare)->GetLoadedFromCache());
+  EXPECT_TRUE(bake(own, true, prepare)->GetLoadedFromCache());
+  processes()->Barrier();
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+}
 
 TEST(ParallelBakeFilter, EstimatesOneRadiusForAll)
 {

@@ -9,6 +9,7 @@
 
 #include "vtkDepthSilhouettes.h"
 #include "vtkNew.h"
+#include "vtkOcclusionTextureWriter.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <gtest/gtest.h>
@@ -39,6 +40,9 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "InsideThreshold", { f->GetInsideThreshold() } },
     { "Encoding", { f->GetEncoding() } },
     { "Seed", { f->GetSeed() } },
+    { "UseCache", { f->GetUseCache() } },
+    { "CacheDirectory", { f->GetCacheDirectory() } },
+    { "CacheSizeLimit", { f->GetCacheSizeLimit() } },
   };
   expectDefaultsOfXml("Filters.xml", "SphereAmbientOcclusion", defaults);
 }
@@ -60,6 +64,16 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
   EXPECT_EQ(f->GetBackgroundBottom(), gradient.bottom);
   EXPECT_EQ(f->GetBackgroundTop(), gradient.top);
   EXPECT_EQ(f->GetBackgroundUp()[2], gradient.up.z);
+}
+
+TEST(ParameterDefaults, OfTheTextureWriterAgreeWithItsXml)
+{
+  vtkNew<vtkOcclusionTextureWriter> f;
+  const ParameterTable defaults{
+    { "FileName", { f->GetFileName() } },
+    { "Precision", { f->GetPrecision() } },
+  };
+  expectDefaultsOfXml("OcclusionTextures.xml", "OcclusionTextureWriter", defaults);
 }
 
 TEST(ParameterDefaults, OfTheImageFilterAgreeWithItsXml)

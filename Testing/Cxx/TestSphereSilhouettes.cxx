@@ -3,6 +3,7 @@
 
 #include "vtkCamera.h"
 #include "vtkDepthSilhouettePass.h"
+#include "vtkEDLShading.h"
 #include "vtkOpenGLFXAAPass.h"
 #include "vtkPlaneSource.h"
 #include "vtkPolyDataMapper.h"
@@ -145,6 +146,32 @@ TEST(SphereSilhouettes, DarkenTheColourOfTheSpheres)
     }
   }
   EXPECT_GT(lines, 500);
+}
+
+/// Eye-dome lighting darkens what the prop drew, lines included; those of a pass around it stay.
+TEST(SphereSilhouettes, GoWithEyeDomeLighting)
+{
+  LineScene scene;
+  scene.silhouettes->SetSamples(1);
+  const int lines = countLines(grab(scene.window));
+  vtkNew<vtkRenderStepsPass> steps;
+  vtkNew<vtkEDLShading> eyeDome;
+  eyeDome->SetDelegatePass(steps);
+  scene.renderer->SetPass(eyeDome);
+  scene.silhouettes->LineVisibilityOff();
+  const Picture shaded = grab(scene.window);
+  scene.silhouettes->LineVisibilityOn();
+  EXPECT_NEAR(countLines(grab(scene.window)), lines, 0.05 * lines);
+
+  scene.silhouettes->LineVisibilityOff();
+  vtkNew<vtkDepthSilhouettePass> pass;
+  pass->SetDelegatePass(eyeDome);
+  pass->SetSamples(1);
+  pass->SetColor(1, 0, 1);
+  scene.renderer->SetPass(pass);
+  const Picture both = grab(scene.window);
+  EXPECT_EQ(countLines(both), lines);
+  EXPECT_LT(differingShare(both, shaded), 1.1 * lines / (both.width() * both.height()));
 }
 
 TEST(SphereSilhouettes, AreFollowedByFXAAAndDrawnInSeveralViewports)

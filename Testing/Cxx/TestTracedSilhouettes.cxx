@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ImageDepth.h"
+#include "SilhouettePixels.h"
 #include "SilhouetteRims.h"
 #include "SphereRenderer.h"
 #include "TestViews.h"
@@ -181,6 +182,77 @@ TEST(TracedSilhouettes, AntialiasedRimsAreWithinATenthOfAPixelOfSupersampling)
       }
     }
   }
+}
+
+/// A line takes part of a pixel and the sphere another, of a pixel that shows what is behind:
+/// shares against 8 x 8 rays a pixel.
+TEST(TracedSilhouettes, WhatLiesWithinARimIsKnown)
+{
+  const Camera camera = lookAtOrigin(true, 30, 9, 120, 90, 1, 200);
+  const std::vector<std::array<double, 4>> spheres{ { 0.3, -0.2, 0, 6 } };
+  const Traced traced(spheres, camera);
+  const SilhouetteImage lines = traced.lines(threshold(6, 8), { true, true });
+  ASSERT_EQ(lines.inside.size(), lines.strength.size());
+  EXPECT_TRUE(traced.lines(threshold(6, 1), { true, true }).inside.empty());
+
+  Camera fine = camera;
+  fine.width *= 8;
+  fine.height *= 8;
+  const Traced samples(spheres, fine);
+  int rims = 0;
+  for (int pixel = 0; pixel < camera.width * camera.height; ++pixel)
+  {
+    const auto at = static_cast<std::size_t>(pixel);
+    if (!(lines.strength[at] > 0))
+    {
+      continue;
+    }
+    int hits = 0;
+    for (int sample = 0; sample < 64; ++sample)
+    {
+      const int x = pixel % camera.width * 8 + sample % 8,
+                y = pixel / camera.width * 8 + sample / 8;
+      hits += samples.layer().frame.sphere[static_cast<std::size_t>(y) * fine.width + x] !=
+        SphereScene::None;
+    }
+    const bool isInside = traced.layer().frame.sphere[at] != SphereScene::None;
+    EXPECT_NEAR(lines.inside[at], isInside ? 0 : hits / 64.0, 1 / 16.0);
+    rims += lines.inside[at] > 0.1F;
+  }
+  EXPECT_GT(rims, 30);
+}
+
+/// A dark line around a red sphere on white: as much white is left in the pixels along the rim as
+/// the line and the sphere leave.
+TEST(TracedSilhouettes, BackgroundDoesNotShineThroughBetweenSphereAndLine)
+{
+  const Camera camera = lookAtOrigin(true, 30, 9, 120, 90, 1, 200);
+  const Traced traced({ { 0.3, -0.2, 0, 6 } }, camera);
+  const TracedFrame& frame = traced.renderer.frame();
+  std::vector<std::uint8_t> picture(4 * frame.pixels(), 255);
+  for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
+  {
+    const bool isSphere = frame.sphere[pixel] != SphereScene::None;
+    picture[4 * pixel + 1] = picture[4 * pixel + 2] = isSphere ? 0 : 255;
+  }
+  SilhouetteParameters parameters = threshold(6, 4);
+  parameters.width = 1.5; // no pixel on a rim reaches beyond the line
+  const SilhouetteImage lines = traced.lines(parameters, { true, true });
+  SilhouettePixels pixels;
+  colorSilhouettes(lines, SilhouetteStyle(), { picture.data(), nullptr }, pixels);
+  int rims = 0;
+  for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
+  {
+    if (lines.strength[pixel] > 0 && lines.inside[pixel] > 0)
+    {
+      const std::uint8_t* line = &pixels.rgba[4 * pixel];
+      EXPECT_GE(line[3], 254);
+      EXPECT_NEAR(line[0], 255 * lines.inside[pixel], 2); // red, and black
+      EXPECT_EQ(line[1], 0);
+      ++rims;
+    }
+  }
+  EXPECT_GT(rims, 50);
 }
 
 /// Bigler 2004, figure 4.4: smaller thresholds give more lines, and never lose one; the absolute

@@ -42,8 +42,7 @@ view = CreateView("RenderViewWithSilhouettes")
 view.ViewSize = [300, 200]
 view.OrientationAxesVisibility = 0
 view.UseFXAA = 0
-view.SilhouetteSamples = 1  # lines of several processes are not smooth, and their automatic threshold is not
-view.SilhouetteThreshold = 4  # that of all particles
+view.SilhouetteSamples = 1  # lines of several processes are not smooth
 if port:
     view.RemoteRenderThreshold = {threshold}
 display = Show(baked, view)

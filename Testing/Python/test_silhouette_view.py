@@ -119,6 +119,26 @@ class SilhouetteView(unittest.TestCase):
         inside = opaque & ~lines(image)
         numpy.testing.assert_array_equal(lines(image), widened(inside) & ~inside)
 
+    def test_lines_of_chosen_representations(self):
+        other = simple.Sphere(Center=(1.5, 0, 0), ThetaResolution=64, PhiResolution=64)
+        shown = simple.Show(other, self.view)
+        simple.ResetCamera(self.view)
+        both = lines(picture(self.view))
+        middle = SIZE[0] // 2
+        self.assertGreater(both[:, :middle].sum(), 200)
+        self.assertGreater(both[:, middle:].sum(), 200)
+        for opacity in (1, 0.5):  # translucent ones have lines when they are chosen
+            shown.Opacity = opacity
+            self.view.SilhouetteRepresentations = [shown]
+            chosen = lines(picture(self.view))
+            self.assertFalse(chosen[:, :middle - 5].any())
+            numpy.testing.assert_array_equal(chosen[:, middle + 5:], both[:, middle + 5:])
+        shown.Visibility = 0
+        self.assertFalse(lines(picture(self.view)).any())
+        self.view.SilhouetteRepresentations = []
+        self.assertTrue(lines(picture(self.view)).any())
+        simple.Delete(other)
+
     def test_selection_sees_the_props(self):
         simple.Render(self.view)
         simple.SelectSurfaceCells(Rectangle=[140, 110, 160, 130], View=self.view)

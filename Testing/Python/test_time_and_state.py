@@ -73,6 +73,30 @@ class Session(unittest.TestCase):
         return files
 
 
+class Cache(Session):
+    def test_a_step_back_and_a_later_session_load_what_was_baked(self):
+        reader = simple.XMLPolyDataReader(FileName=self.series())
+        settings = dict(TextureResolution=4, UseCache=1, CacheDirectory=self.file("cache"))
+        baked = simple.SphereAmbientOcclusion(Input=reader, **settings)
+
+        def step(source, time):
+            source.UpdatePipeline(time)
+            source.UpdatePropertyInformation()
+            return source.GetPropertyValue("LoadedFromCache"), textures(source)
+
+        forward = [step(baked, time) for time in range(STEPS)]
+        back = [step(baked, time) for time in reversed(range(STEPS - 1))]
+        self.assertEqual([loaded for loaded, _ in forward], [0] * STEPS)
+        self.assertEqual([loaded for loaded, _ in back], [1] * (STEPS - 1))
+        self.assertEqual(len(os.listdir(self.file("cache"))), STEPS)
+        later = simple.SphereAmbientOcclusion(
+            Input=simple.XMLPolyDataReader(FileName=[self.file("step2.vtp")]), **settings)
+        loaded, table = step(later, 0)
+        self.assertEqual(loaded, 1)
+        numpy.testing.assert_array_equal(table, forward[2][1])
+        numpy.testing.assert_array_equal(back[-1][1], forward[0][1])
+
+
 class TimeSeries(Session):
     def setUp(self):
         super().setUp()
@@ -132,10 +156,12 @@ class TimeSeries(Session):
             numpy.testing.assert_array_equal(frame, still)
 
 
+CACHE = tempfile.TemporaryDirectory()
 FILTER = dict(RadiusArray="radius", RadiusScale=0.9, ConstantRadius=0.4, TextureResolution=5, SamplesPerTexel=20,
               TargetError=0.2, Method="Embree", MaximumDistance=3.0, Background="Gradient",
               BackgroundUp=[0.0, 1.0, 0.5], BackgroundBottom=0.25, BackgroundTop=1.5,
-              BackgroundImage="sky.exr", DilateInside=0, InsideThreshold=0.1, Encoding="Float32Linear", Seed=7)
+              BackgroundImage="sky.exr", DilateInside=0, InsideThreshold=0.1, Encoding="Float32Linear", Seed=7,
+              UseCache=1, CacheDirectory=CACHE.name, CacheSizeLimit=100)
 DISPLAY = dict(RadiusArray="radius", RadiusScale=0.8, ConstantRadius=0.3, ShadingMode="Ambient Occlusion",
                OcclusionOnDiffuse=0, Shadows=1, LayersFile="layers.exr", LayersResolution=[320, 240])
 VIEW = dict(SilhouetteVisibility=0, SilhouetteThreshold=2.5, SilhouetteBackgroundDepth=30.0,

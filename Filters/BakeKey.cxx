@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BakeKey.h"
+
+#include "Digest.h"
+
+#include <cstdint>
+#include <type_traits>
+#include <variant>
+
+namespace po
+{
+namespace
+{
+/// To be raised whenever a bake of the same task gives other bits, or entries another layout.
+constexpr std::uint32_t ResultVersion = 1;
+
+template <typename Number>
+void addNumber(Digest& digest, Number number)
+{
+  static_assert(std::is_arithmetic_v<Number> || std::is_enum_v<Number>);
+  digest.add(&number, sizeof(number));
+}
+
+void add(Digest& digest, Vec3d v)
+{
+  addNumber(digest, v.x);
+  addNumber(digest, v.y);
+  addNumber(digest, v.z);
+}
+
+void add(Digest&, const UniformBackground&) {}
+
+void add(Digest& digest, const GradientBackground& gradient)
+{
+  const auto& [up, bottom, top] = gradient;
+  add(digest, up);
+  addNumber(digest, bottom);
+  addNumber(digest, top);
+}
+
+void add(Digest& digest, const ImageBackground& image)
+{
+  const auto& [width, height, luminance] = image;
+  addNumber(digest, width);
+  addNumber(digest, height);
+  digest.add(luminance);
+}
+
+// Members are taken apart by structured bindings, here and below: one that is added to a struct
+// later does not compile until it is thought of.
+void add(Digest& digest, const BakeSettings& settings)
+{
+  const auto& [textureResolution, samplesPerTexel, maximumDistance, dilateInside, insideThreshold,
+    encoding, seed, background] = settings;
+  addNumber(digest, textureResolution);
+  addNumber(digest, samplesPerTexel);
+  addNumber(digest, maximumDistance);
+  addNumber(digest, dilateInside);
+  addNumber(digest, insideThreshold);
+  addNumber(digest, encoding);
+  addNumber(digest, seed);
+  addNumber(digest, background.index());
+  std::visit([&](const auto& light) { add(digest, light); }, background);
+}
+
+void add(Digest& digest, const SphereCloud& cloud)
+{
+  const auto& [origin, scale, spheres, centers, sourceIds, ghosts, rejected] = cloud;
+  add(digest, origin);
+  addNumber(digest, scale);
+  digest.add(spheres);
+  digest.add(centers);
+  // The others say what the data set was like; a task has none of them.
+}
+
+void add(Digest& digest, const Occluders& occluders)
+{
+  const auto& [spheres, mesh, centers] = occluders;
+  digest.add(spheres);
+  digest.add(centers);
+  const auto& [vertices, triangles] = mesh;
+  digest.add(vertices);
+  digest.add(triangles);
+}
+
+void add(Digest& digest, const BakeTask& task)
+{
+  const auto& [cloud, receivers, occluders, settings, targetError] = task;
+  add(digest, cloud);
+  digest.add(receivers);
+  add(digest, occluders);
+  add(digest, settings);
+  addNumber(digest, targetError);
+}
+
+/// Of the tasks of all processes: what is decided for the whole set depends on all.
+std::string keyOfAll(const std::string& own, const ProcessGroup& group)
+{
+  const ProcessGroup::Words words(own.begin(), own.end()); // a character each
+  Digest all;
+  all.add(own.data(), own.size());
+  all.add(group.gather(words));
+  return all.text();
+}
+}
+
+std::string bakeKey(int method, const BakeTask& task, const ProcessGroup& group)
+{
+  Digest digest;
+  addNumber(digest, ResultVersion); // its bytes also tell the order of bytes
+  addNumber(digest, group.size());
+  addNumber(digest, group.rank());
+  addNumber(digest, method);
+  add(digest, task);
+  return keyOfAll(digest.text(), group);
+}
+}
