@@ -182,8 +182,7 @@ void vtkSphereAmbientOcclusion::Internals::CountParticles(const Particles& parti
   this->Report.counters.particles = group.sum(owned);
   this->Report.counters.texels = this->Report.counters.particles * side * side;
   this->Report.counters.particlesDark = group.sum(dark);
-  const std::size_t bytes = result.table.bytes.size() + result.table.floats.size() * sizeof(float);
-  this->Report.textureBytes = group.sum(std::uint64_t(bytes));
+  this->Report.textureBytes = group.sum(std::uint64_t(result.table.size()));
 }
 
 vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
@@ -357,6 +356,11 @@ int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
   return this->Impl->Report.samplesUsed;
 }
 
+double vtkSphereAmbientOcclusion::GetStorageDifference()
+{
+  return this->Impl->Report.storageDifference;
+}
+
 double vtkSphereAmbientOcclusion::GetEstimatedError()
 {
   return this->Impl->Report.estimatedError;
@@ -387,6 +391,8 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "DilateInside: " << this->DilateInside << "\n"
      << indent << "InsideThreshold: " << this->InsideThreshold << "\n"
      << indent << "Encoding: " << this->Encoding << "\n"
+     << indent << "Storage: " << this->Storage << "\n"
+     << indent << "StorageError: " << this->StorageError << "\n"
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "UseCache: " << this->UseCache << "\n"
      << indent << "CacheDirectory: " << (this->CacheDirectory ? this->CacheDirectory : "") << "\n"

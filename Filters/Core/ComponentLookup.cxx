@@ -45,8 +45,8 @@ inline void unpackFour(
     hn::And(hn::Shr(hn::BitCast(integers, shuffled), hn::Load(integers, four.shift.data())),
       hn::Load(integers, four.mask.data()));
   const auto value = hn::ConvertTo(floats, hn::BitCast(signedIntegers, number));
-  hn::Store(hn::MulAdd(value, hn::Load(floats, four.scale.data()),
-              hn::Load(floats, four.offset.data())),
+  hn::Store(
+    hn::MulAdd(value, hn::Load(floats, four.scale.data()), hn::Load(floats, four.offset.data())),
     floats, target);
 #endif
 }
@@ -71,8 +71,8 @@ inline float blend(const Coefficients& coefficients, std::size_t padded,
 {
   const hn::CappedTag<float, ComponentBlock::Pad> d;
   auto sum = hn::Zero(d);
-  const auto w0 = hn::Set(d, weights[0]), w1 = hn::Set(d, weights[1]),
-             w2 = hn::Set(d, weights[2]), w3 = hn::Set(d, weights[3]);
+  const auto w0 = hn::Set(d, weights[0]), w1 = hn::Set(d, weights[1]), w2 = hn::Set(d, weights[2]),
+             w3 = hn::Set(d, weights[3]);
   for (std::size_t k = 0; k < padded; k += hn::Lanes(d))
   {
     auto row = hn::Mul(w0, hn::LoadU(d, texels[0] + k));

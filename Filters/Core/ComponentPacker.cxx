@@ -175,8 +175,8 @@ void ComponentPacker::choose(const std::vector<float>& sample, double population
 TexturePacker::Code ComponentPacker::pack(const float* texture) const
 {
   Code oneValue = packSize(texture, 0);
-  const bool isOneValue = std::all_of(texture, texture + texelsPerTexture(),
-    [&](float value) { return value == texture[0]; });
+  const bool isOneValue = std::all_of(
+    texture, texture + texelsPerTexture(), [&](float value) { return value == texture[0]; });
   if (projection_.empty() || isOneValue)
   {
     return oneValue;

@@ -37,7 +37,7 @@ private:
   struct Projected
   {
     std::vector<float> coefficients;
-    double square = 0; ///< mean square difference from the mean texture
+    double square = 0;                  ///< mean square difference from the mean texture
     double oneValue = 0, allTexels = 0; ///< mean square errors
   };
 
@@ -51,8 +51,7 @@ private:
 
   [[nodiscard]] Projected project(const TextureProjection& projection, const float* texture) const;
   [[nodiscard]] static Errors errorsOf(const Projected& texture,
-    const std::vector<double>& variances,
-    const std::vector<std::vector<std::uint8_t>>& classBits);
+    const std::vector<double>& variances, const std::vector<std::vector<std::uint8_t>>& classBits);
   [[nodiscard]] std::size_t cheapest(const Errors& errors, double pricePerWord) const;
   [[nodiscard]] Plan planFor(std::size_t components, const std::vector<Projected>& sample,
     const std::vector<double>& variances, double population) const;

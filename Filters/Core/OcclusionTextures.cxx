@@ -70,8 +70,8 @@ void OcclusionTextures::lookUp(
           : lookUpTexels(particles, count, lookup, values);
 }
 
-void OcclusionTextures::lookUpTexels(const std::int64_t* particles, std::size_t count,
-  const TexelLookup& lookup, float* values) const
+void OcclusionTextures::lookUpTexels(
+  const std::int64_t* particles, std::size_t count, const TexelLookup& lookup, float* values) const
 {
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -91,8 +91,8 @@ void OcclusionTextures::lookUpTexels(const std::int64_t* particles, std::size_t 
   }
 }
 
-void OcclusionTextures::lookUpPacked(const std::int64_t* particles, std::size_t count,
-  const TexelLookup& lookup, float* values) const
+void OcclusionTextures::lookUpPacked(
+  const std::int64_t* particles, std::size_t count, const TexelLookup& lookup, float* values) const
 {
   std::array<std::size_t, BlockSize> firsts{}, lanes{};
   std::size_t textures = 0;

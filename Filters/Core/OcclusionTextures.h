@@ -64,7 +64,10 @@ private:
   void lookUpPacked(const std::int64_t* particles, std::size_t count, const TexelLookup& lookup,
     float* values) const;
 
-  [[nodiscard]] bool hasTexture(std::int64_t particle) const { return rows_ && rows_[particle] >= 0; }
+  [[nodiscard]] bool hasTexture(std::int64_t particle) const
+  {
+    return rows_ && rows_[particle] >= 0;
+  }
 
   [[nodiscard]] float texel(std::size_t first, std::int32_t row, std::int32_t column) const
   {

@@ -8,6 +8,18 @@
 
 namespace po
 {
+std::size_t PackedFormat::wordsOf(std::uint8_t header) const
+{
+  const int kind = header & HeaderMask;
+  if (kind >= SizeKinds)
+  {
+    const auto c = static_cast<std::size_t>(kind - SizeKinds);
+    return c < classBits.size() ? ClassWords[c] : 0;
+  }
+  const int sizeBefore = kind == 0 ? 0 : 1 << (kind - 1);
+  return sizeBefore < resolution ? sizeWords(std::min(1 << kind, resolution)) : 0;
+}
+
 void PackedFormat::check() const
 {
   if (resolution < 1 || resolution > 1 << (SizeKinds - 1))
@@ -38,8 +50,8 @@ void PackedFormat::check() const
   for (std::size_t c = 0; c < classBits.size(); ++c)
   {
     const auto& bits = classBits[c];
-    const bool each = std::all_of(bits.begin(), bits.end(),
-      [](std::uint8_t b) { return b <= Quantizer::MaximumBits; });
+    const bool each = std::all_of(
+      bits.begin(), bits.end(), [](std::uint8_t b) { return b <= Quantizer::MaximumBits; });
     if (!each || bits.size() > basis.components() ||
       std::accumulate(bits.begin(), bits.end(), 0) > classBitCount(ClassWords[c]))
     {

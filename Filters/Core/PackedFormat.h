@@ -34,9 +34,9 @@ struct PackedFormat
   static constexpr int HeaderBits = 4;
   static constexpr std::uint8_t HeaderMask = (1 << HeaderBits) - 1;
 
-  int resolution = 0; ///< T
-  double maximum = 0; ///< the scale of UInt8Gamma2
-  TextureBasis basis; ///< empty: sizes only
+  int resolution = 0;                               ///< T
+  double maximum = 0;                               ///< the scale of UInt8Gamma2
+  TextureBasis basis;                               ///< empty: sizes only
   std::vector<std::vector<std::uint8_t>> classBits; ///< of each class; as many as there are
 
   /// Words of n x n texels and their header.
@@ -52,6 +52,9 @@ struct PackedFormat
     return static_cast<int>(8 * WordBytes * words) - HeaderBits;
   }
 
+  /// Words of a texture with such a first byte, 0 if there is none.
+  [[nodiscard]] std::size_t wordsOf(std::uint8_t header) const;
+
   /// Throws std::invalid_argument that tells what cannot be; after that nothing read by this format
   /// leaves its bounds.
   void check() const;
@@ -59,7 +62,8 @@ struct PackedFormat
   [[nodiscard]] bool operator==(const PackedFormat& other) const;
 };
 
-/// "7665,77665": the bits of all classes as text, and back; the latter throws std::invalid_argument.
+/// "7665,77665": the bits of all classes as text, and back; the latter throws
+/// std::invalid_argument.
 [[nodiscard]] std::string textOfClassBits(const std::vector<std::vector<std::uint8_t>>& bits);
 [[nodiscard]] std::vector<std::vector<std::uint8_t>> classBitsOf(const std::string& text);
 }

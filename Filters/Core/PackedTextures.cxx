@@ -19,6 +19,10 @@ PackedTextures::PackedTextures(
 {
   format.check();
   sizes_ = textureSizes(format.resolution);
+  for (std::size_t header = 0; header < lengths_.size(); ++header)
+  {
+    lengths_[header] = format.wordsOf(static_cast<std::uint8_t>(header));
+  }
   for (std::size_t byte = 0; byte < decoded_.size(); ++byte)
   {
     decoded_[byte] =
@@ -47,16 +51,7 @@ std::size_t PackedTextures::lengthAt(std::size_t first) const
   {
     return 0;
   }
-  const std::size_t kind = *code(first) & PackedFormat::HeaderMask;
-  std::size_t length = 0;
-  if (kind < sizes_.size())
-  {
-    length = PackedFormat::sizeWords(sizes_[kind]);
-  }
-  else if (kind >= PackedFormat::SizeKinds && kind - PackedFormat::SizeKinds < layouts_.size())
-  {
-    length = PackedFormat::ClassWords[kind - PackedFormat::SizeKinds];
-  }
+  const std::size_t length = lengths_[*code(first) & PackedFormat::HeaderMask];
   return length <= count_ - first ? length : 0;
 }
 

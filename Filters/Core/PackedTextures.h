@@ -47,13 +47,13 @@ private:
 
   [[nodiscard]] const float* basisAt(std::int32_t row, std::int32_t column) const
   {
-    return basis_.data() +
-      static_cast<std::size_t>(row * resolution_ + column) * stride_;
+    return basis_.data() + static_cast<std::size_t>(row * resolution_ + column) * stride_;
   }
 
   int resolution_;
   float maximum_;
   std::vector<int> sizes_;
+  std::array<std::size_t, PackedFormat::HeaderMask + 1> lengths_{}; ///< words, by header
   std::vector<CoefficientLayout> layouts_;
   std::size_t stride_ = 0;   ///< floats of a texel of the basis
   std::vector<float> basis_; ///< [texel][mean, components]

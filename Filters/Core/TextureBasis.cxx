@@ -153,8 +153,8 @@ std::vector<std::uint8_t> shareBits(const std::vector<double>& variances, int bi
   }
   for (; bits > 0 && !gains.empty(); --bits)
   {
-    const auto best = static_cast<std::size_t>(
-      std::max_element(gains.begin(), gains.end()) - gains.begin());
+    const auto best =
+      static_cast<std::size_t>(std::max_element(gains.begin(), gains.end()) - gains.begin());
     if (!(gains[best] > 0))
     {
       break;

@@ -29,14 +29,12 @@ ProcessGroup::Words drawOwn(const TextureTable& table, std::size_t most)
     const float* texture = table.values().data() + static_cast<std::size_t>(row) * texels;
     if (!hasOneValue(texture, texels))
     {
-      const std::string_view bytes(
-        reinterpret_cast<const char*>(texture), texels * sizeof(float));
+      const std::string_view bytes(reinterpret_cast<const char*>(texture), texels * sizeof(float));
       drawn.emplace_back(std::hash<std::string_view>{}(bytes), texture);
     }
   }
   const std::size_t count = std::min(most, drawn.size());
-  std::partial_sort(
-    drawn.begin(), drawn.begin() + static_cast<std::ptrdiff_t>(count), drawn.end());
+  std::partial_sort(drawn.begin(), drawn.begin() + static_cast<std::ptrdiff_t>(count), drawn.end());
   ProcessGroup::Words words;
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -49,8 +47,7 @@ ProcessGroup::Words drawOwn(const TextureTable& table, std::size_t most)
 }
 }
 
-TextureSample sampleTextures(
-  const TextureTable& table, std::size_t most, const ProcessGroup& group)
+TextureSample sampleTextures(const TextureTable& table, std::size_t most, const ProcessGroup& group)
 {
   const std::size_t texels = table.texelsPerRow();
   const std::size_t length = 1 + (texels + 1) / 2;

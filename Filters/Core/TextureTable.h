@@ -78,6 +78,21 @@ struct EncodedTable
     return storage == Storage::VariableSize || storage == Storage::Compressed;
   }
 
+  /// Tuples of the texture that begins at a row.
+  [[nodiscard]] std::size_t tuplesAt(std::int32_t row) const
+  {
+    return isPacked()
+      ? packed.wordsOf(bytes[PackedFormat::WordBytes * static_cast<std::size_t>(row)])
+      : 1;
+  }
+
+  /// Values of a tuple: bytes of a word, or texels.
+  [[nodiscard]] std::size_t valuesPerTuple() const
+  {
+    return isPacked() ? PackedFormat::WordBytes
+                      : static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
+  }
+
   /// Bytes of the table and its basis.
   [[nodiscard]] std::size_t size() const
   {

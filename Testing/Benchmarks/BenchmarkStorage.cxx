@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Ways to store baked textures, as Markdown on standard output: bytes a particle, what storing
-/// changes, and the time of a lookup.
+/// changes, the time of a lookup, and of a frame against the one with plain 8-bit textures.
 ///
 ///   BenchmarkStorage [COUNT] [FILE.vtp ...]
 ///
@@ -13,6 +13,7 @@
 #include "EmbreeEstimator.h"
 #include "OcclusionBaker.h"
 #include "Random.h"
+#include "SphereRenderer.h"
 #include "SweepEstimator.h"
 #include "TexelMap.h"
 
@@ -39,6 +40,7 @@ constexpr std::uint64_t JudgeSeed = 77;
 struct Scene
 {
   std::string name;
+  SphereCloud cloud;
   Baked baked;
   std::vector<unsigned> judged; ///< particles that light reaches
   std::vector<float> truth, shares;
@@ -66,7 +68,7 @@ double errorOf(const Scene& scene, const Candidate& candidate)
   return std::sqrt(sum / area);
 }
 
-Baked bake(const SphereCloud& cloud, const BakeScene& scene)
+Baked bake(const BakeScene& scene)
 {
   BakeSettings settings;
   settings.encoding = Encoding::Float32Linear;
@@ -85,7 +87,6 @@ Baked bake(const SphereCloud& cloud, const BakeScene& scene)
   baked.mean = std::move(result.mean);
   baked.maximum = result.table.maximum;
   baked.noise = sweep.report().estimatedError / 2; // see vtkSphereAmbientOcclusion
-  static_cast<void>(cloud);
   return baked;
 }
 
@@ -121,12 +122,12 @@ void judge(Scene& scene, const BakeScene& spheres)
 
 Scene makeScene(const std::string& name, std::size_t count)
 {
-  const SphereCloud cloud = makeBenchmarkScene(name, count);
-  const BakeScene spheres(cloud);
   const std::size_t slash = name.find_last_of('/');
   Scene scene;
   scene.name = slash == std::string::npos ? name : name.substr(slash + 1);
-  scene.baked = bake(cloud, spheres);
+  scene.cloud = makeBenchmarkScene(name, count);
+  const BakeScene spheres(scene.cloud);
+  scene.baked = bake(spheres);
   judge(scene, spheres);
   scene.noise = errorOf(scene, uncompressed(scene.baked));
   return scene;
@@ -179,11 +180,78 @@ private:
   std::vector<float> values_;
 };
 
+/// CPU seconds of a frame of the whole set: traced anew, and shaded by direct light and occlusion.
+class FrameClock
+{
+public:
+  explicit FrameClock(const SphereCloud& cloud)
+  {
+    constexpr int Side = 800;
+    constexpr double Focal = 2;
+    double extent = 0;
+    for (const Sphere& sphere : cloud.spheres)
+    {
+      extent = std::max(extent, length(cloud.scale * sphere.center().as<double>()));
+    }
+    const Vec3d o = cloud.origin;
+    const double distance = 2.5 * extent, near = 0.1 * extent, far = 5 * extent;
+    camera_.worldToEye = { 1, 0, 0, -o.x, 0, 1, 0, -o.y, 0, 0, 1, -o.z - distance, 0, 0, 0, 1 };
+    camera_.eyeToClip = { Focal, 0, 0, 0, 0, Focal, 0, 0, 0, 0, -(far + near) / (far - near),
+      -2 * far * near / (far - near), 0, 0, -1, 0 };
+    camera_.width = camera_.height = Side;
+    step_ = 1e-6 * extent;
+    renderer_.setCloud(cloud);
+  }
+
+  double seconds(const OcclusionTextures& textures)
+  {
+    Style style;
+    style.textures = textures;
+    style.lights = { Light() };
+    camera_.worldToEye[3] += step_; // a new view each time: nothing is kept
+    const std::clock_t start = std::clock();
+    static_cast<void>(renderer_.trace(camera_, { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1 }));
+    renderer_.shade(style);
+    return double(std::clock() - start) / CLOCKS_PER_SEC;
+  }
+
+private:
+  Camera camera_;
+  double step_ = 0;
+  SphereRenderer renderer_;
+};
+
+/// The candidates' frames take turns; of each the fastest counts. Relative to the first.
+std::vector<double> frameRatios(FrameClock& clock, const std::vector<Candidate>& candidates)
+{
+  constexpr int Rounds = 15;
+  std::vector<double> best(candidates.size(), 1e300);
+  for (int round = 0; round < Rounds; ++round)
+  {
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+    {
+      if (candidates[i].timeFrames)
+      {
+        best[i] = std::min(best[i], clock.seconds(*candidates[i].textures));
+      }
+    }
+  }
+  for (std::size_t i = candidates.size(); i-- > 0;)
+  {
+    best[i] /= best[0];
+  }
+  return best;
+}
+
 void print(const Scene& scene)
 {
   LookupClock clock(scene.baked);
-  for (const Candidate& candidate : makeCandidates(scene.baked))
+  const std::vector<Candidate> candidates = makeCandidates(scene.baked);
+  FrameClock frames(scene.cloud);
+  const std::vector<double> ratios = frameRatios(frames, candidates);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
   {
+    const Candidate& candidate = candidates[i];
     const double error = errorOf(scene, candidate);
     std::cout << "| " << scene.name << " | " << candidate.name << " | " << std::fixed
               << std::setprecision(1)
@@ -194,10 +262,15 @@ void print(const Scene& scene)
     {
       std::cout << std::setprecision(1) << clock.nanoseconds(*candidate.textures);
     }
+    std::cout << " | ";
+    if (candidate.timeFrames)
+    {
+      std::cout << std::setprecision(2) << ratios[i];
+    }
     std::cout << " |" << std::endl;
   }
   std::cout << "| " << scene.name << " | RMS error of the bake itself " << std::setprecision(4)
-            << scene.noise << ", half of its estimate " << scene.baked.noise << " | | | | |"
+            << scene.noise << ", half of its estimate " << scene.baked.noise << " | | | | | |"
             << std::endl;
 }
 }
@@ -209,8 +282,9 @@ int main(int argc, char** argv)
     const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : DefaultCount;
     std::vector<std::string> names = { "pack", "overlap", "gas", "shell", "foam" };
     names.insert(names.end(), argv + std::min(argc, 2), argv + argc);
-    std::cout << "| set | storage | bytes a particle | difference | added error | ns a lookup |\n"
-                 "| --- | --- | ---: | ---: | ---: | ---: |\n";
+    std::cout
+      << "| set | storage | bytes a particle | difference | added error | ns a lookup | frame |\n"
+         "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
     for (const std::string& name : names)
     {
       print(makeScene(name, count));

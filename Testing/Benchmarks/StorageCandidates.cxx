@@ -64,8 +64,8 @@ Candidate fromBytes(const Baked& baked, const std::string& name, ByteTable&& byt
       [&](std::uint8_t byte)
       { return static_cast<float>(decodeGamma2(byte, kept->table.maximum)); });
   };
-  candidate.textures = std::make_shared<OcclusionTextures>(baked.resolution,
-    kept->table.bytes.data(), kept->table.maximum, kept->rowOf.data(), nullptr);
+  candidate.textures = std::make_shared<OcclusionTextures>(
+    baked.resolution, kept->table.bytes.data(), kept->table.maximum, kept->rowOf.data(), nullptr);
   // The textures refer to the table: both live as long as the candidate.
   candidate.decode = [kept, textures = candidate.textures, decode = candidate.decode](
                        std::size_t particle, float* texture) { decode(particle, texture); };
@@ -129,8 +129,7 @@ Candidate nearEqual(const Baked& baked, double allowed)
   for (std::int32_t row = 0; row < baked.table.rows(); ++row)
   {
     const float* texture = textureOf(baked, static_cast<std::size_t>(row));
-    const double mean =
-      std::inner_product(shares.begin(), shares.end(), texture, 0.0);
+    const double mean = std::inner_product(shares.begin(), shares.end(), texture, 0.0);
     const long cell = std::lround(mean / allowed);
     std::int32_t found = -1;
     for (long near = cell - 1; near <= cell + 1 && found < 0; ++near)
@@ -166,7 +165,8 @@ Candidate vectorQuantization(
   const std::vector<float> shares = texelShares(baked.resolution);
   const std::size_t samples = sample.size() / texels;
   words = std::min(words, samples);
-  std::vector<float> book(sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(words * texels));
+  std::vector<float> book(
+    sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(words * texels));
   const auto nearest = [&](const float* texture)
   {
     std::size_t best = 0;
@@ -233,7 +233,8 @@ Candidate fourBits(const Baked& baked)
   const auto side = static_cast<std::size_t>(baked.resolution);
   Candidate candidate;
   candidate.name = "4 bit, blocks of 4 x 4";
-  candidate.bytes = static_cast<double>(baked.table.rows()) * static_cast<double>(texels / 16 * 10) +
+  candidate.bytes =
+    static_cast<double>(baked.table.rows()) * static_cast<double>(texels / 16 * 10) +
     IndexBytes * static_cast<double>(baked.rowOf.size());
   candidate.decode = [&baked, side](std::size_t particle, float* texture)
   {
@@ -277,8 +278,8 @@ Candidate byPacker(
   auto packed = std::make_shared<Packed>();
   packed->rowOf = baked.rowOf;
   packed->table = packTable(copyOf(baked), packer, packed->rowOf);
-  packed->textures = std::make_shared<PackedTextures>(packed->table.packed,
-    packed->table.bytes.data(), static_cast<std::size_t>(packed->table.rows));
+  packed->textures = std::make_shared<PackedTextures>(
+    packed->table.packed, packed->table.bytes.data(), static_cast<std::size_t>(packed->table.rows));
   Candidate candidate;
   candidate.name = name;
   candidate.bytes = (size < 0 ? static_cast<double>(packed->table.size()) : size) +
@@ -342,8 +343,7 @@ double sizeOf(const Baked& baked, const TextureBasis& basis, std::size_t bytesPe
 Candidate byCoefficients(const Baked& baked, const std::string& name, const TextureBasis& basis)
 {
   const std::size_t count = basis.components();
-  const FixedPacker packer(
-    baked, basis, classFor(8 * count), std::vector<std::uint8_t>(count, 8));
+  const FixedPacker packer(baked, basis, classFor(8 * count), std::vector<std::uint8_t>(count, 8));
   return byPacker(baked, name, packer, sizeOf(baked, basis, count));
 }
 
@@ -386,8 +386,8 @@ TextureBasis sphericalHarmonics(const Baked& baked, const std::vector<float>& sa
         }
         square += c * c;
       }
-      const double deviation = std::sqrt(square * static_cast<double>(texels) /
-        static_cast<double>(sample.size()));
+      const double deviation =
+        std::sqrt(square * static_cast<double>(texels) / static_cast<double>(sample.size()));
       for (double& value : row)
       {
         value *= deviation / std::sqrt(norm);
@@ -450,23 +450,21 @@ std::vector<Candidate> makeCandidates(const Baked& baked)
   all.push_back(oneValue(baked));
   all.push_back(
     byPacker(baked, "variable size, difference 0.01", SizePacker(resolution, maximum, Error)));
-  all.push_back(
-    byPacker(baked, "**variable size**", SizePacker(resolution, maximum, allowed)));
+  all.push_back(byPacker(baked, "**variable size**", SizePacker(resolution, maximum, allowed)));
   all.push_back(fourBits(baked));
   all.push_back(vectorQuantization(baked, sample.values, 256));
   all.push_back(vectorQuantization(baked, sample.values, 2048));
   for (const int bands : { 3, 4 })
   {
-    all.push_back(byCoefficients(baked,
-      "spherical harmonics, " + std::to_string(bands * bands),
+    all.push_back(byCoefficients(baked, "spherical harmonics, " + std::to_string(bands * bands),
       sphericalHarmonics(baked, sample.values, bands)));
   }
   const TextureBasis basis = principalComponents(resolution, sample.values, 64);
   for (const std::size_t count : { 4, 8, 12, 16 })
   {
-    all.push_back(byCoefficients(baked,
-      "principal components, " + std::to_string(count) + " of 8 bit",
-      firstComponents(basis, count)));
+    all.push_back(
+      byCoefficients(baked, "principal components, " + std::to_string(count) + " of 8 bit",
+        firstComponents(basis, count)));
   }
   const std::vector<std::uint8_t> bits =
     shareBits(TextureProjection(basis).variances(), PackedFormat::classBitCount(3));
@@ -476,6 +474,10 @@ std::vector<Candidate> makeCandidates(const Baked& baked)
     ComponentPacker(resolution, maximum, Error, sample.values, sample.population)));
   all.push_back(byPacker(baked, "**compressed**",
     ComponentPacker(resolution, maximum, allowed, sample.values, sample.population)));
+  for (Candidate& candidate : all)
+  {
+    candidate.timeFrames = candidate.name == all.front().name || candidate.name[0] == '*';
+  }
   return all;
 }
 

@@ -32,6 +32,7 @@ struct Candidate
   double bytes = 0; ///< of all particles: textures, codebooks, and the index of 4 bytes
   std::function<void(std::size_t particle, float* texture)> decode;
   std::shared_ptr<const OcclusionTextures> textures; ///< to time lookups with, or null
+  bool timeFrames = false;
 };
 
 /// The floats themselves.
