@@ -156,7 +156,8 @@ BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter)
 
 RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
 {
-  return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius() };
+  return { textOf(filter.GetRadiusArray()), filter.GetRadiusScale(), filter.GetConstantRadius(),
+    static_cast<RadiusSource>(filter.GetRadiusFrom()), filter.GetDensity() };
 }
 
 CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)
@@ -192,6 +193,8 @@ OcclusionParameters describeBake(
   parameters.set("radiusArray", textOf(filter.GetRadiusArray()));
   parameters.set("radiusScale", filter.GetRadiusScale());
   parameters.set("constantRadius", filter.GetConstantRadius());
+  parameters.set("radiusFrom", filter.GetRadiusFrom());
+  parameters.set("density", filter.GetDensity());
   describeBackground(filter, parameters);
   parameters.set("targetError", filter.GetTargetError());
   parameters.set("estimatedError", report.estimatedError);

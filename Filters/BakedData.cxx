@@ -20,7 +20,7 @@ namespace po
 namespace
 {
 /// Where some blocks mark duplicate points all must, or the marks are lost when they are appended.
-void ensureGhostArray(vtkPolyData& block)
+void ensureGhostArray(vtkPointSet& block)
 {
   if (!block.GetPointGhostArray())
   {
@@ -32,13 +32,13 @@ void ensureGhostArray(vtkPolyData& block)
   }
 }
 
-vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPolyData*>& blocks)
+vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPointSet*>& blocks)
 {
   const bool anyGhosts = std::any_of(blocks.begin(), blocks.end(),
-    [](vtkPolyData* block) { return block->GetPointGhostArray() != nullptr; });
+    [](vtkPointSet* block) { return block->GetPointGhostArray() != nullptr; });
   vtkNew<vtkAppendPolyData> append;
   append->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
-  for (vtkPolyData* block : blocks)
+  for (vtkPointSet* block : blocks)
   {
     const vtkSmartPointer<vtkPolyData> points = withoutCells(*block);
     if (anyGhosts)
@@ -137,7 +137,7 @@ vtkSmartPointer<vtkDataArray> copyTable(
     : copyTextures<vtkFloatArray>(table.floats, width, selection);
 }
 
-void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offset,
+void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offset,
   const BakeResult& result, const OcclusionParameters& parameters)
 {
   const vtkIdType points = block->GetNumberOfPoints();
@@ -165,16 +165,16 @@ void attachToBlock(vtkPolyData* block, const PointResults& all, std::size_t offs
 }
 }
 
-std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
+std::vector<vtkPointSet*> particleBlocks(vtkDataObject* data)
 {
-  if (auto* particles = vtkPolyData::SafeDownCast(data))
+  if (auto* particles = vtkPointSet::SafeDownCast(data))
   {
     return { particles };
   }
-  std::vector<vtkPolyData*> blocks;
+  std::vector<vtkPointSet*> blocks;
   for (vtkDataSet* block : blocksWithPoints(data))
   {
-    if (auto* particles = vtkPolyData::SafeDownCast(block))
+    if (auto* particles = vtkPointSet::SafeDownCast(block))
     {
       blocks.push_back(particles);
     }
@@ -182,7 +182,7 @@ std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data)
   return blocks;
 }
 
-std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
+std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
   const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
   const ProcessGroup& group)
 {
@@ -195,11 +195,11 @@ std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
   return readSphereCloud(*all, settings, error, frame, group);
 }
 
-void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,
+void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& cloud,
   const BakeResult& result, const OcclusionParameters& parameters)
 {
   std::size_t points = 0;
-  for (vtkPolyData* block : blocks)
+  for (vtkPointSet* block : blocks)
   {
     points += static_cast<std::size_t>(block->GetNumberOfPoints());
   }
@@ -207,7 +207,7 @@ void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& clou
   OcclusionParameters described = parameters;
   describeFormat(result.table.packed, described);
   std::size_t offset = 0;
-  for (vtkPolyData* block : blocks)
+  for (vtkPointSet* block : blocks)
   {
     attachToBlock(block, all, offset, result, described);
     offset += static_cast<std::size_t>(block->GetNumberOfPoints());

@@ -15,24 +15,24 @@
 #include <vector>
 
 class vtkDataObject;
-class vtkPolyData;
+class vtkPointSet;
 
 namespace po
 {
-/// The poly data to bake: the data set itself, or the leaves of a composite one that have points.
-[[nodiscard]] std::vector<vtkPolyData*> particleBlocks(vtkDataObject* data);
+/// The point sets to bake: the data set itself, or the leaves of a composite one that have points.
+[[nodiscard]] std::vector<vtkPointSet*> particleBlocks(vtkDataObject* data);
 
-/// One cloud of the particles of all blocks; sourceIds count through the blocks in order.
+/// One input of the particles of all blocks; sourceIds count through the blocks in order.
 /// Nothing, and a message in `error`, under the conditions of readSphereCloud, which says what
 /// `frame` and `group` are.
-[[nodiscard]] std::optional<SphereCloud> readBlocks(const std::vector<vtkPolyData*>& blocks,
+[[nodiscard]] std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
   const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
   const ProcessGroup& group);
 
 /// Adds the arrays of the data contract to each block. A block gets the rows of the table that its
 /// particles use; particles that were left out get row -1 and visibility 0.
 /// @param result in the order of the cloud's spheres
-void attachBake(const std::vector<vtkPolyData*>& blocks, const SphereCloud& cloud,
+void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& cloud,
   const BakeResult& result, const OcclusionParameters& parameters);
 }
 

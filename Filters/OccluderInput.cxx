@@ -170,22 +170,22 @@ private:
   vtkNew<vtkPoints> cornerPoints_;
 };
 
-void readSpheres(const std::vector<vtkPolyData*>& blocks, const RadiusSettings& radii,
+void readSpheres(const std::vector<vtkPointSet*>& blocks, const RadiusSettings& radii,
   const SphereCloud& particles, const ProcessGroup& group, OccluderInput& input)
 {
   std::string error;
-  std::optional<SphereCloud> cloud = readBlocks(blocks, radii, error, &particles, group);
-  if (!cloud)
+  std::optional<ParticleInput> spheres = readBlocks(blocks, radii, error, &particles, group);
+  if (!spheres)
   {
     throw std::invalid_argument(PortName + error);
   }
-  const RejectedParticles rejected = cloud->rejected.summed(group);
+  const RejectedParticles rejected = spheres->cloud.rejected.summed(group);
   if (rejected.total() > 0)
   {
     input.warnings.push_back(PortName + describe(rejected));
   }
-  input.occluders.spheres = std::move(cloud->spheres);
-  input.occluders.centers = std::move(cloud->centers);
+  input.occluders.spheres = std::move(spheres->cloud.spheres);
+  input.occluders.centers = std::move(spheres->cloud.centers);
 }
 }
 
@@ -194,7 +194,7 @@ OccluderInput readOccluders(vtkDataObject* data, const RadiusSettings& radii,
 {
   OccluderInput input;
   MeshReader meshes(particles, input.occluders.mesh);
-  std::vector<vtkPolyData*> sphereBlocks;
+  std::vector<vtkPointSet*> sphereBlocks;
   std::uint64_t linesAlone = 0;
   for (vtkPolyData* block : occluderBlocks(data))
   {

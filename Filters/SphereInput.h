@@ -6,43 +6,23 @@
 // mapper share these functions, so that both see the same particles.
 
 #include "ParticleOcclusionFiltersModule.h"
+#include "ParticleRadii.h"
 #include "ProcessGroup.h"
 #include "SphereCloud.h"
 
 #include <optional>
 #include <string>
 
-class vtkPointData;
 class vtkPointSet;
 
 namespace po
 {
-/// Where the radii of the particles come from.
-struct RadiusSettings
+/// The particles of a data set, and where their radii came from.
+struct ParticleInput
 {
-  /// Value of `array` that asks for no array: all radii are `constant`.
-  static constexpr const char* NoArray = "(none)";
-
-  /// Value of `array` that asks for defaultRadiusArray, like an empty one.
-  static constexpr const char* Automatic = "(automatic)";
-
-  /// Point array of one component; empty: the choice of defaultRadiusArray. Of an array named
-  /// "diameter" (in any case) half the value is the radius.
-  std::string array;
-
-  /// Every radius is multiplied by this, whatever it comes from; positive and finite.
-  double scale = 1;
-
-  /// Radius of all particles where no array is used, in world units; 0: estimateRadius.
-  double constant = 0;
+  SphereCloud cloud;
+  RadiusSettings radii; ///< as resolveRadii gives them
 };
-
-/// What the settings come to for all points of the group: the name of an array that every process
-/// with points has, or NoArray and a constant radius. Automatic is the first of the arrays radius,
-/// Radius, rad, r, diameter that all have. A constant of 0 is replaced by estimateRadius of all
-/// points, and stays 0 where that finds none.
-[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT RadiusSettings resolveRadii(
-  vtkPointSet& points, const RadiusSettings& settings, const ProcessGroup& group);
 
 /// The usable particles of `points` as spheres; sourceIds are point ids, ghosts the duplicate
 /// points of vtkGhostType.
@@ -54,7 +34,7 @@ struct RadiusSettings
 /// @param frame the spheres are put into the local coordinates of that cloud, or, if null, into
 /// those of all particles of the group
 /// @param group the processes whose particles make up one set; all must call
-[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::optional<SphereCloud> readSphereCloud(
+[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::optional<ParticleInput> readSphereCloud(
   vtkPointSet& points, const RadiusSettings& settings, std::string& error,
   const SphereCloud* frame = nullptr, const ProcessGroup& group = ProcessGroup::alone());
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkSphereAmbientOcclusion.h"
+#include "vtkSphereAmbientOcclusionInternals.h"
 
 #include "BakeCache.h"
 #include "BakeParameters.h"
@@ -14,7 +14,7 @@
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
+#include "vtkPointSet.h"
 
 #include <chrono>
 #include <functional>
@@ -26,56 +26,37 @@ vtkStandardNewMacro(vtkSphereAmbientOcclusion);
 namespace
 {
 /// Reports to the user interface, which may stop the bake.
-po::Progress::Report reportTo(vtkAlgorithm* algorithm)
+/// @param progress what the report is for
+po::Progress::Report reportTo(vtkAlgorithm* algorithm, const po::Progress& progress)
 {
-  return [algorithm](double share)
+  return [algorithm, &progress](double share)
   {
+    const std::string percent = std::to_string(static_cast<int>(100 * share));
+    algorithm->SetProgressText((progress.phase() + ": " + percent + " %").c_str());
     algorithm->UpdateProgress(share);
     return !algorithm->CheckAbort();
   };
 }
+
+/// For what has no share that is known.
+void announce(vtkAlgorithm* algorithm, double share, const char* phase)
+{
+  algorithm->SetProgressText(phase);
+  algorithm->UpdateProgress(share);
+}
 }
 
-/// One execution.
-struct vtkSphereAmbientOcclusion::Internals
-{
-  po::BakeReport Report;
-  double Seconds = 0;
-
-  /// What was read of this process' data.
-  struct Particles
-  {
-    po::SphereCloud Cloud;
-    std::vector<unsigned> Places; ///< of each sphere in the cloud of the task
-  };
-
-  /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
-  void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    const std::vector<vtkPolyData*>& blocks, vtkDataObject* occluderData);
-
-  static Particles ReadParticles(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    const std::vector<vtkPolyData*>& blocks);
-  static po::Occluders ReadOccluders(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    vtkDataObject* data, const po::SphereCloud& cloud);
-
-  /// Exchanges particles and occluders with the other processes.
-  po::BakeTask MakeTask(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    Particles& particles, po::Occluders occluders, const po::BakeSettings& settings);
-
-  void CountParticles(const Particles& particles, const po::BakeResult& result,
-    const po::BakeSettings& settings, const po::ProcessGroup& group);
-};
-
 void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
-  const po::ProcessGroup& group, const std::vector<vtkPolyData*>& blocks,
+  const po::ProcessGroup& group, const std::vector<vtkPointSet*>& blocks,
   vtkDataObject* occluderData)
 {
   const po::BakeSettings settings = po::settingsOf(*self);
+  announce(self, 0, "Reading particles");
   Particles particles = ReadParticles(self, group, blocks);
   po::Occluders occluders = ReadOccluders(self, group, occluderData, particles.Cloud);
   po::BakeTask task = this->MakeTask(self, group, particles, std::move(occluders), settings);
 
-  po::Progress progress(reportTo(self));
+  po::Progress progress(reportTo(self, progress)); // which is called later
   const int method = po::chooseMethod(self->Method, task, group);
   std::string warning;
   po::BakeResult result =
@@ -99,27 +80,29 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
                                     << error << ".");
   }
   group.agree(); // nobody was aborted: from here on it is all or nothing
+  announce(self, 1, "Storing textures");
   po::attachBake(blocks, particles.Cloud, result, po::describeBake(*self, settings, this->Report));
   group.agree();
 }
 
 vtkSphereAmbientOcclusion::Internals::Particles vtkSphereAmbientOcclusion::Internals::ReadParticles(
   vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-  const std::vector<vtkPolyData*>& blocks)
+  const std::vector<vtkPointSet*>& blocks)
 {
   std::string error;
-  std::optional<po::SphereCloud> cloud =
-    po::readBlocks(blocks, po::radiiOf(*self), error, nullptr, group);
-  if (!cloud)
+  const po::RadiusSettings radii = po::radiiOf(*self);
+  std::optional<po::ParticleInput> input = po::readBlocks(blocks, radii, error, nullptr, group);
+  if (!input)
   {
     throw std::invalid_argument(error);
   }
-  const po::RejectedParticles rejected = cloud->rejected.summed(group);
+  const po::RejectedParticles rejected = input->cloud.rejected.summed(group);
   if (rejected.total() > 0 && group.rank() == 0)
   {
     vtkWarningWithObjectMacro(self, << po::describe(rejected));
   }
-  return { std::move(*cloud), {} };
+  this->RadiusUsed = po::describe(radii, input->radii);
+  return { std::move(input->cloud), {} };
 }
 
 po::Occluders vtkSphereAmbientOcclusion::Internals::ReadOccluders(vtkSphereAmbientOcclusion* self,
@@ -209,7 +192,7 @@ int vtkSphereAmbientOcclusion::FillInputPortInformation(int port, vtkInformation
     return 1;
   }
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
@@ -230,7 +213,10 @@ int vtkSphereAmbientOcclusion::RequestData(
     this->Impl->Bake(this, group, po::particleBlocks(output), occluders);
   };
   std::string error;
-  if (!po::runTogether(group, std::ref(bake), error)) // a copy would be memory that may be missing
+  // By reference: a copy would be memory that may be missing.
+  const bool baked = po::runTogether(group, std::ref(bake), error);
+  this->SetProgressText(nullptr);
+  if (!baked)
   {
     *this->Impl = Internals();
     output->ShallowCopy(input); // without what some blocks may have got before the fault
@@ -261,127 +247,14 @@ vtkMultiProcessController* vtkSphereAmbientOcclusion::GetController()
   return this->Controller;
 }
 
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticles()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particles);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexels()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.texels);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfRays()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.rays);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfSamplesInside()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.samplesInside);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTexelsInside()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.texelsInside);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesBuried()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesBuried);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesDark()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesDark);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesLeftOut()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.leftOut);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextures()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.texturesStored);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfTextureBytes()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.textureBytes);
-}
-
-int vtkSphereAmbientOcclusion::GetNumberOfThreads()
-{
-  return static_cast<int>(this->Impl->Report.counters.threads);
-}
-
-const char* vtkSphereAmbientOcclusion::GetMethodUsed()
-{
-  return po::nameOfMethod(this->Impl->Report.method);
-}
-
-int vtkSphereAmbientOcclusion::GetNumberOfDirections()
-{
-  return this->Impl->Report.directions;
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesRefined()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.refined);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsClosed()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.spheresClosed);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsNeverSeen()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.spheresNeverSeen);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfDirectionsBlack()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.directionsBlack);
-}
-
-vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesAlone()
-{
-  return static_cast<vtkIdType>(this->Impl->Report.counters.particlesAlone);
-}
-
-int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
-{
-  return this->Impl->Report.samplesUsed;
-}
-
-double vtkSphereAmbientOcclusion::GetStorageDifference()
-{
-  return this->Impl->Report.storageDifference;
-}
-
-double vtkSphereAmbientOcclusion::GetEstimatedError()
-{
-  return this->Impl->Report.estimatedError;
-}
-
-double vtkSphereAmbientOcclusion::GetBakeSeconds()
-{
-  return this->Impl->Seconds;
-}
-
-bool vtkSphereAmbientOcclusion::GetLoadedFromCache()
-{
-  return this->Impl->Report.loaded;
-}
-
 void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "RadiusArray: " << (this->RadiusArray ? this->RadiusArray : "(automatic)") << "\n"
      << indent << "RadiusScale: " << this->RadiusScale << "\n"
      << indent << "ConstantRadius: " << this->ConstantRadius << "\n"
+     << indent << "RadiusFrom: " << this->RadiusFrom << "\n"
+     << indent << "Density: " << this->Density << "\n"
      << indent << "TextureResolution: " << this->TextureResolution << "\n"
      << indent << "SamplesPerTexel: " << this->SamplesPerTexel << "\n"
      << indent << "TargetError: " << this->TargetError << "\n"

@@ -16,8 +16,8 @@ class vtkMultiProcessController;
  *
  * Every point of the input is a sphere. For each the filter finds how much of the background its
  * surface sees past all other spheres, as a texture of T x T values in latitude and longitude, in
- * parallel with Embree. The input is a vtkPolyData, or a composite data set of them whose blocks
- * occlude each other.
+ * parallel with Embree. The input is any vtkPointSet (poly data, unstructured grid, ...; only its
+ * points count), or a composite data set of them whose blocks occlude each other.
  *
  * The second input, port 1, is optional: a vtkPolyData, or a composite data set of them, that
  * darkens the particles but gets no textures and is not part of the output. Of a block that has
@@ -82,12 +82,35 @@ public:
 
   ///@{
   /**
-   * Point array of radii, one component. Empty (default) or "(automatic)": the first of radius,
-   * Radius, rad, r, diameter that exists, else ConstantRadius. "(none)": ConstantRadius. Of an
-   * array named diameter half the value is the radius.
+   * Point array that gives the radii, as RadiusFrom says; one component. Empty (default) or
+   * "(automatic)": for radii the first of radius, Radius, rad, r, diameter that exists, else
+   * ConstantRadius. "(none)": ConstantRadius. Of an array named diameter half the value is the
+   * radius.
    */
   vtkSetStringMacro(RadiusArray);
   vtkGetStringMacro(RadiusArray);
+  ///@}
+
+  enum RadiusSourceType
+  {
+    RadiiInArray = 0, ///< the values of RadiusArray
+    Diameters = 1,    ///< half of them; (automatic): diameter, Diameter, d
+    Elements = 2,     ///< van der Waals radii in Å (Bondi 1964) of symbols or atomic numbers;
+                      ///< (automatic): element, atom_type, Atomic Numbers, atomic_number
+    Masses = 3        ///< of spheres of that mass and the Density; (automatic): mass, Mass, m
+  };
+
+  ///@{
+  /// What RadiusArray holds [RadiiInArray].
+  vtkSetMacro(RadiusFrom, int);
+  vtkGetMacro(RadiusFrom, int);
+  ///@}
+
+  ///@{
+  /// Mass per volume of the particles, positive, in the units of the masses and the points; for
+  /// RadiusFrom Masses [1].
+  vtkSetMacro(Density, double);
+  vtkGetMacro(Density, double);
   ///@}
 
   ///@{
@@ -97,8 +120,8 @@ public:
   ///@}
 
   ///@{
-  /// Radius where no array is used, in the units of the points; 0 [default]: half the median
-  /// distance to the nearest neighbour.
+  /// Radius where no array is used, in the units of the points; 0 [default]: of the elements if the
+  /// points have them (RadiusFrom), else half the median distance to the nearest neighbour.
   vtkSetMacro(ConstantRadius, double);
   vtkGetMacro(ConstantRadius, double);
   ///@}
@@ -292,6 +315,7 @@ public:
   vtkIdType GetNumberOfDirectionsBlack(); ///< spared: the background is black there
   vtkIdType GetNumberOfParticlesAlone();  ///< no other within MaximumDistance
   const char* GetMethodUsed();            ///< what Automatic chose
+  const char* GetRadiusUsed();            ///< where the radii came from, in words
   int GetNumberOfDirections();   ///< of Sweep or Embree (the most of a particle), 0 otherwise
   int GetNumberOfThreads();      ///< threads that took part
   int GetNumberOfSamplesUsed();  ///< differs from SamplesPerTexel with Reference and TargetError
@@ -300,6 +324,14 @@ public:
   double GetBakeSeconds();       ///< wall time of the whole execution
   /// Whether there was no bake: the other numbers are then those of the bake that was kept.
   bool GetLoadedFromCache();
+  ///@}
+
+  ///@{
+  /// What an execution would take: time and memory in words, for the particles of this process as
+  /// they were last read; empty where there are none yet. And what it is estimated for.
+  const char* GetBakeEstimate();
+  int GetNumberOfCores();
+  double GetFreeMemory(); ///< bytes
   ///@}
 
 protected:
@@ -316,6 +348,8 @@ private:
   char* RadiusArray = nullptr;
   double RadiusScale = 1.0;
   double ConstantRadius = 0.0;
+  int RadiusFrom = RadiiInArray;
+  double Density = 1.0;
   int TextureResolution = 16;
   int SamplesPerTexel = 49;
   double TargetError = 0.0;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 namespace po
 {
@@ -129,7 +130,8 @@ public:
 
   void run(const OcclusionEstimator::Sink& sink)
   {
-    progress_.begin(particles_.size());
+    progress_.begin(
+      particles_.size(), "Rays from " + std::to_string(particles_.size()) + " particles");
     const std::size_t chunk = std::clamp<std::size_t>(SlotsPerChunk / texels_.slots(), 64, 1024);
     for (std::size_t first = 0; first < particles_.size() && !progress_.aborted(); first += chunk)
     {

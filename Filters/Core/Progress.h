@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -28,12 +29,17 @@ public:
   {
   }
 
-  /// Starts counting anew, towards `total` units of work.
-  void begin(std::uint64_t total)
+  /// Starts counting anew, towards `total` units of work; on the thread that made the object.
+  /// @param phase what the work is, for the user
+  void begin(std::uint64_t total, std::string phase = {})
   {
     total_ = total;
     done_ = 0;
+    phase_ = std::move(phase);
   }
+
+  /// What is being done; for reports.
+  [[nodiscard]] const std::string& phase() const { return phase_; }
 
   /// Adds finished work; false means: stop soon, the result is not wanted any more.
   bool advance(std::uint64_t work)
@@ -71,6 +77,7 @@ private:
   std::thread::id owner_ = std::this_thread::get_id();
   Clock::time_point reported_ = Clock::now();
   std::uint64_t total_ = 0;
+  std::string phase_;
   std::atomic<std::uint64_t> done_{ 0 };
   std::atomic<bool> aborted_{ false };
 };

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace po
 {
@@ -119,7 +120,8 @@ void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
   const std::size_t sets = spread == Spread::Evenly ? 1 : ErrorSubsets;
   const int perSet = 2 * static_cast<int>(sets);
   const int axes = (directions + perSet - 1) / perSet;
-  progress.begin(2 * sets * static_cast<std::uint64_t>(axes) * order_.size());
+  const std::uint64_t swept = 2 * sets * static_cast<std::uint64_t>(axes);
+  progress.begin(swept * order_.size(), "Sweep along " + std::to_string(swept) + " directions");
   for (std::size_t set = 0; set < sets && !progress.aborted(); ++set)
   {
     const std::uint64_t seed = rounds_ == 0 ? settings_.seed : mixBits(settings_.seed + rounds_);

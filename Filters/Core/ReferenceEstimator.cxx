@@ -9,7 +9,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace po
@@ -36,6 +38,14 @@ struct Workspace
   std::vector<std::size_t> ends; ///< by column
   BakeCounters counters;
 };
+
+/// For the user: "12.3 million".
+std::string inMillions(double number)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f million", number / 1e6);
+  return text;
+}
 
 Plan makePlan(const BakeScene& scene, const BakeSettings& settings)
 {
@@ -142,7 +152,9 @@ void ReferenceEstimator::estimate(const BakeScene& scene, const std::vector<unsi
   std::vector<float> values;
   std::vector<float> shares;
 
-  progress.begin(particles.size() * plan.texels);
+  const double rays = static_cast<double>(particles.size() * plan.texels) *
+    static_cast<double>(settings.samplesPerTexel);
+  progress.begin(particles.size() * plan.texels, inMillions(rays) + " rays");
   for (std::size_t first = 0; first < particles.size() && !progress.aborted(); first += chunk)
   {
     const std::size_t count = std::min(chunk, particles.size() - first);

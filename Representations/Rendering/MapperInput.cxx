@@ -14,8 +14,7 @@ namespace po
 MapperInput::Messages MapperInput::update(
   vtkPolyData* points, const RadiusSettings& radii, SphereRenderer& renderer)
 {
-  const Source source{ points, points ? points->GetMTime() : 0, radii.array, radii.scale,
-    radii.constant };
+  const Source source{ points, points ? points->GetMTime() : 0, radii };
   if (source == source_)
   {
     return {};
@@ -29,16 +28,16 @@ MapperInput::Messages MapperInput::update(
     return {}; // nothing to draw is no mistake
   }
   Messages messages;
-  auto cloud = readSphereCloud(*points, radii, messages.error);
-  if (!cloud)
+  auto input = readSphereCloud(*points, radii, messages.error);
+  if (!input)
   {
     return messages;
   }
-  if (cloud->rejected.total() > 0)
+  if (input->cloud.rejected.total() > 0)
   {
-    messages.warnings.push_back(describe(cloud->rejected));
+    messages.warnings.push_back(describe(input->cloud.rejected));
   }
-  renderer.setCloud(std::move(*cloud));
+  renderer.setCloud(std::move(input->cloud));
   std::string warning;
   baked_ = readBakedTextures(*points, warning);
   if (!warning.empty())
@@ -50,7 +49,7 @@ MapperInput::Messages MapperInput::update(
 
 void MapperInput::forget()
 {
-  source_ = { nullptr, 0, {}, 0, 0 };
+  source_ = { nullptr, 0, {} };
   baked_ = {};
 }
 

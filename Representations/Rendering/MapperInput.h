@@ -25,7 +25,7 @@ class MapperInput
 {
 public:
   /// What the spheres were read from.
-  using Source = std::tuple<vtkPolyData*, vtkMTimeType, std::string, double, double>;
+  using Source = std::tuple<vtkPolyData*, vtkMTimeType, RadiusSettings>;
 
   struct Messages
   {
@@ -48,7 +48,7 @@ public:
   [[nodiscard]] std::uint64_t texturesVersion() const { return texturesVersion_; }
 
 private:
-  Source source_{ nullptr, 0, {}, 0, 0 };
+  Source source_{ nullptr, 0, {} };
   BakedTextures baked_;
   std::uint64_t texturesVersion_ = 0;
 };

@@ -51,7 +51,7 @@ vtkRayTracedSphereMapper::~vtkRayTracedSphereMapper()
 void vtkRayTracedSphereMapper::UpdateSpheres()
 {
   const po::RadiusSettings radii{ this->RadiusArray ? this->RadiusArray : "", this->RadiusScale,
-    this->ConstantRadius };
+    this->ConstantRadius, static_cast<po::RadiusSource>(this->RadiusFrom), this->Density };
   const auto messages =
     this->Internal->Input.update(this->GetInput(), radii, this->Internal->Renderer);
   for (const std::string& warning : messages.warnings)
@@ -303,6 +303,8 @@ void vtkRayTracedSphereMapper::PrintSelf(ostream& os, vtkIndent indent)
      << '\n';
   os << indent << "RadiusScale: " << this->RadiusScale << '\n';
   os << indent << "ConstantRadius: " << this->ConstantRadius << '\n';
+  os << indent << "RadiusFrom: " << this->RadiusFrom << '\n';
+  os << indent << "Density: " << this->Density << '\n';
   os << indent << "ShadingMode: " << this->ShadingMode << '\n';
   os << indent << "OcclusionOnDiffuse: " << (this->OcclusionOnDiffuse ? "on" : "off") << '\n';
   os << indent << "Shadows: " << (this->Shadows ? "on" : "off") << '\n';

@@ -54,18 +54,26 @@ public:
   };
 
   ///@{
-  /// RadiusArray: name of the point array of radii, in world units; of an array named "diameter"
-  /// half the value. Empty (default): the first of radius, Radius, rad, r, diameter that exists,
+  /// RadiusArray: name of the point array that gives the radii, in world units; of an array named
+  /// "diameter" half the value. Empty (default): the first of radius, Radius, rad, r, diameter that exists,
   /// otherwise none. "(none)": no array, all radii are ConstantRadius.
   /// RadiusScale: factor on every radius, positive. Default 1.
   /// ConstantRadius: radius of all spheres where no array is used, in world units. 0 (default):
-  /// half the median distance between nearest neighbours.
+  /// of the elements if the points have them, else half the median distance between nearest
+  /// neighbours.
+  /// RadiusFrom: what RadiusArray holds, as vtkSphereAmbientOcclusion::RadiusSourceType. Default 0,
+  /// radii.
+  /// Density: mass per volume, positive, where it holds masses. Default 1.
   vtkSetStringMacro(RadiusArray);
   vtkGetStringMacro(RadiusArray);
   vtkSetMacro(RadiusScale, double);
   vtkGetMacro(RadiusScale, double);
   vtkSetMacro(ConstantRadius, double);
   vtkGetMacro(ConstantRadius, double);
+  vtkSetMacro(RadiusFrom, int);
+  vtkGetMacro(RadiusFrom, int);
+  vtkSetMacro(Density, double);
+  vtkGetMacro(Density, double);
   ///@}
 
   ///@{
@@ -194,6 +202,8 @@ private:
   char* RadiusArray = nullptr;
   double RadiusScale = 1;
   double ConstantRadius = 0;
+  int RadiusFrom = 0;
+  double Density = 1;
   int ShadingMode = BOTH;
   bool OcclusionOnDiffuse = true;
   bool Shadows = false;

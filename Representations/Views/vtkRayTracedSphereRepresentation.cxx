@@ -7,9 +7,9 @@
 #include "GatheredParticles.h"
 #include "LayersFile.h"
 #include "ParticleDelivery.h"
+#include "RadiusChoice.h"
 #include "Refinement.h"
 #include "SilhouetteVisibility.h"
-#include "SphereInput.h"
 #include "SphereRenderer.h"
 #include "Tracked.h"
 #include "WholeSet.h"
@@ -46,11 +46,9 @@ struct vtkRayTracedSphereRepresentation::Internals
   vtkSmartPointer<vtkPolyData> Particles;
   vtkSmartPointer<vtkDataObject> Piece; ///< the particles as they are delivered
   po::DeliveredParticles Delivered;
-  std::string RadiusArray;
-  double ConstantRadius = 0;
+  po::RadiusChoice Radii;
   double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
   vtkTimeStamp BoundsTime;
-  vtkTimeStamp RadiusTime; ///< when a parameter of the radii was last set
   po::Tracked<po::CropSettings> Crop;
   po::AppliedBlockLooks Blocks;
   po::LayersFile Layers;
@@ -117,24 +115,11 @@ int vtkRayTracedSphereRepresentation::RequestData(
   {
     vtkWarningMacro(<< warning);
   }
-  this->ResolveRadii();
+  this->Internal->Radii.resolve(*this->Internal->Particles, *this->Mapper);
   this->ShareExtent();
   const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
   this->Internal->Piece = po::pieceToDeliver(this->Internal->Particles, group.rank(), group.size());
   return this->Superclass::RequestData(request, inputVector, outputVector);
-}
-
-/// What is chosen automatically is chosen for the particles of all processes.
-void vtkRayTracedSphereRepresentation::ResolveRadii()
-{
-  const po::ControllerGroup group(vtkMultiProcessController::GetGlobalController());
-  po::RadiusSettings radii{ this->Internal->RadiusArray, 1.0, this->Internal->ConstantRadius };
-  if (group.size() > 1)
-  {
-    radii = po::resolveRadii(*this->Internal->Particles, radii, group);
-  }
-  this->Mapper->SetRadiusArray(radii.array.c_str());
-  this->Mapper->SetConstantRadius(radii.constant);
 }
 
 /// Tells the mapper of the particles of all processes.
@@ -210,7 +195,7 @@ void vtkRayTracedSphereRepresentation::UpdateBounds()
   // Not each time: the mapper reads the spheres again when it changes between the particles and the
   // delivered copy of them.
   if (this->Internal->BoundsTime < this->Internal->Particles->GetMTime() ||
-    this->Internal->BoundsTime < this->Internal->RadiusTime)
+    this->Internal->BoundsTime < this->Internal->Radii.changeTime())
   {
     this->Mapper->SetInputDataObject(this->Internal->Particles);
     this->Mapper->GetBounds(this->Internal->Bounds);
@@ -255,25 +240,37 @@ void vtkRayTracedSphereRepresentation::SetVisibility(bool visible)
 
 void vtkRayTracedSphereRepresentation::SetRadiusArray(const char* name)
 {
-  this->Internal->RadiusArray = name ? name : "";
-  this->Mapper->SetRadiusArray(name);
-  this->Internal->RadiusTime.Modified();
+  this->Internal->Radii.change().array = name ? name : "";
   this->MarkModified();
 }
 
 void vtkRayTracedSphereRepresentation::SetRadiusScale(double scale)
 {
-  this->Mapper->SetRadiusScale(scale);
-  this->Internal->RadiusTime.Modified();
+  this->Internal->Radii.change().scale = scale;
   this->MarkModified();
 }
 
 void vtkRayTracedSphereRepresentation::SetConstantRadius(double radius)
 {
-  this->Internal->ConstantRadius = radius;
-  this->Mapper->SetConstantRadius(radius);
-  this->Internal->RadiusTime.Modified();
+  this->Internal->Radii.change().constant = radius;
   this->MarkModified();
+}
+
+void vtkRayTracedSphereRepresentation::SetRadiusFrom(int source)
+{
+  this->Internal->Radii.change().from = static_cast<po::RadiusSource>(source);
+  this->MarkModified();
+}
+
+void vtkRayTracedSphereRepresentation::SetDensity(double density)
+{
+  this->Internal->Radii.change().density = density;
+  this->MarkModified();
+}
+
+const char* vtkRayTracedSphereRepresentation::GetRadiusUsed()
+{
+  return this->Internal->Radii.used().c_str();
 }
 
 // Cropping takes effect when the view is rendered next; nothing is updated for it.

@@ -44,6 +44,8 @@ public:
   void SetRadiusArray(const char* name);
   void SetRadiusScale(double scale);
   void SetConstantRadius(double radius);
+  void SetRadiusFrom(int source);
+  void SetDensity(double density);
   void SetShadingMode(int mode);
   void SetOcclusionOnDiffuse(bool on);
   void SetShadows(bool on);
@@ -66,6 +68,9 @@ public:
   double GetShadowSeconds();
   double GetShadeSeconds();
   ///@}
+
+  /// Where the radii came from, in words; of the particles of all processes.
+  const char* GetRadiusUsed();
 
   ///@{
   /// One range for the panel, beside those of AddCropRange: shows only particles whose value of the
@@ -170,7 +175,6 @@ private:
   void PrepareFrame(vtkInformation* inInfo);
   void ProvideData(vtkInformation* inInfo);
   void ReleaseMemory();
-  void ResolveRadii();
   void ShareExtent();
   void UpdateBounds();
   void UpdateColoring();

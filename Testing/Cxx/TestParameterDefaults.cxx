@@ -26,6 +26,8 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "RadiusArray", { po::RadiusSettings::Automatic } }, // what no name asks for
     { "RadiusScale", { f->GetRadiusScale() } },
     { "ConstantRadius", { f->GetConstantRadius() } },
+    { "RadiusFrom", { f->GetRadiusFrom() } },
+    { "Density", { f->GetDensity() } },
     { "TextureResolution", { f->GetTextureResolution() } },
     { "SamplesPerTexel", { f->GetSamplesPerTexel() } },
     { "TargetError", { f->GetTargetError() } },
@@ -53,6 +55,11 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
 {
   vtkNew<vtkSphereAmbientOcclusion> f;
   EXPECT_EQ(f->GetRadiusArray(), nullptr);
+  const po::RadiusSettings radii;
+  EXPECT_EQ(f->GetRadiusScale(), radii.scale);
+  EXPECT_EQ(f->GetConstantRadius(), radii.constant);
+  EXPECT_EQ(f->GetRadiusFrom(), static_cast<int>(radii.from));
+  EXPECT_EQ(f->GetDensity(), radii.density);
   const po::BakeSettings core;
   EXPECT_EQ(f->GetTextureResolution(), core.textureResolution);
   EXPECT_EQ(f->GetSamplesPerTexel(), core.samplesPerTexel);

@@ -171,6 +171,8 @@ TEST(RayTracedSphereMapper, DefaultsAreThoseOfTheXml)
   const std::map<std::string, double> defaults{
     { "RadiusScale", mapper->GetRadiusScale() },
     { "ConstantRadius", mapper->GetConstantRadius() },
+    { "RadiusFrom", mapper->GetRadiusFrom() },
+    { "Density", mapper->GetDensity() },
     { "ShadingMode", mapper->GetShadingMode() },
     { "OcclusionOnDiffuse", mapper->GetOcclusionOnDiffuse() },
     { "Shadows", mapper->GetShadows() },

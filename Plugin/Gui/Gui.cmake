@@ -1,0 +1,34 @@
+# What the plugin adds to ParaView's window: widgets of the properties panel, entries of the search, icons. Sets
+# gui_arguments for paraview_add_plugin.
+set(gui_interfaces)
+set(gui_sources)
+
+# particleocclusion_property_widget(TYPE CLASS): CLASS is the widget of properties with panel_widget="TYPE".
+macro (particleocclusion_property_widget type class)
+  paraview_plugin_add_property_widget(
+    KIND WIDGET
+    TYPE "${type}"
+    CLASS_NAME "${class}"
+    INTERFACES interface
+    SOURCES generated)
+  list(APPEND gui_interfaces ${interface})
+  list(APPEND gui_sources ${generated} "Gui/${class}.cxx" "Gui/${class}.h")
+endmacro ()
+
+particleocclusion_property_widget(information_text pqInformationText)
+particleocclusion_property_widget(bake_estimate pqBakeEstimate)
+particleocclusion_property_widget(presets pqPresets)
+
+paraview_plugin_add_auto_start(
+  CLASS_NAME pqParticleActions
+  STARTUP startup
+  SHUTDOWN shutdown
+  INTERFACES interface
+  SOURCES generated)
+list(APPEND gui_interfaces ${interface})
+list(APPEND gui_sources ${generated} Gui/pqParticleActions.cxx Gui/pqParticleActions.h)
+
+set(gui_arguments
+  UI_INTERFACES ${gui_interfaces}
+  UI_RESOURCES Gui/ParticleOcclusion.qrc
+  SOURCES ${gui_sources})

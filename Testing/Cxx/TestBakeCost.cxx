@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// What a bake says before it begins, and while it lasts.
+
+#include "BakeCost.h"
+#include "BakeFilterTestSupport.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkNew.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace
+{
+using Filter = vtkSphereAmbientOcclusion;
+
+po::BakeWork workOf(std::size_t particles, int method, int resolution = 16, int samples = 49)
+{
+  po::BakeWork work;
+  work.particles = particles;
+  work.method = method;
+  work.settings.textureResolution = resolution;
+  work.settings.samplesPerTexel = samples;
+  return work;
+}
+
+double secondsOf(const po::BakeWork& work)
+{
+  return po::estimateCost(work).coreSeconds;
+}
+
+TEST(BakeCost, IsWithinAFactorOfThreeOfTheBenchmarks)
+{
+  // Core seconds of Testing/Benchmarks/README.md at T = 16; the samples are those whose directions
+  // are closest to the measured ones.
+  struct Measured
+  {
+    std::size_t particles;
+    int method, samples;
+    double seconds;
+  };
+  const Measured sets[] = { { 30000, Filter::Sweep, 28, 0.611 },
+    { 30000, Filter::Sweep, 44, 0.806 }, { 6075, Filter::Sweep, 28, 0.197 },
+    { 3341, Filter::Sweep, 62, 0.221 }, { 955000, Filter::Sweep, 44, 26.7 },
+    { 955000, Filter::Sweep, 41, 14.1 }, { 30000, Filter::Embree, 28, 3.66 },
+    { 30000, Filter::Embree, 43, 11.1 }, { 3341, Filter::Embree, 62, 0.552 },
+    { 30000, Filter::Reference, 49, 91.9 }, { 30000, Filter::Reference, 49, 136 },
+    { 30000, Filter::Reference, 49, 48.5 } };
+  for (const Measured& set : sets)
+  {
+    const double ratio =
+      secondsOf(workOf(set.particles, set.method, 16, set.samples)) / set.seconds;
+    EXPECT_GT(ratio, 1.0 / 3) << set.particles << " by method " << set.method;
+    EXPECT_LT(ratio, 3) << set.particles << " by method " << set.method;
+  }
+}
+
+TEST(BakeCost, GrowsWithTheWork)
+{
+  for (const int method : { Filter::Sweep, Filter::Embree, Filter::Reference })
+  {
+    const double base = secondsOf(workOf(1000, method));
+    EXPECT_GT(base, 0);
+    EXPECT_NEAR(secondsOf(workOf(5000, method)), 5 * base, 1e-9 * base);
+    EXPECT_GT(secondsOf(workOf(1000, method, 32)), 2.5 * base);
+    EXPECT_GT(secondsOf(workOf(1000, method, 16, 196)), 3 * base);
+  }
+  EXPECT_EQ(secondsOf(workOf(1000, Filter::Automatic)), secondsOf(workOf(1000, Filter::Sweep)));
+  EXPECT_GT(po::estimateCost(workOf(1000, Filter::Sweep, 32)).bytes,
+    3.5 * po::estimateCost(workOf(1000, Filter::Sweep)).bytes);
+  po::BakeWork target = workOf(1000, Filter::Sweep);
+  target.targetError = 0.01;
+  EXPECT_EQ(secondsOf(target), 0);
+}
+
+TEST(BakeCost, IsSaidInWords)
+{
+  EXPECT_EQ(po::describe({ 10, 1e9 }, 0, 2, 4e9), "");
+  EXPECT_EQ(po::describe({ 24, 0.25e9 }, 1000, 2, 4e9),
+    "About 12 s (4 s to 36 s) on 2 cores for 1000 particles; at most 250 MB of memory, 4.0 GB are "
+    "free");
+  EXPECT_EQ(po::describe({ 0.1, 8e9 }, 7, 1, 4e9),
+    "About a second on 1 core for 7 particles; at most 8.0 GB of memory, 4.0 GB are free: too "
+    "little");
+  EXPECT_EQ(po::describe({ 0, 1e6 }, 7, 1, 4e9).rfind("As long as the target error takes", 0), 0u);
+  EXPECT_EQ(po::describe({ 7200 * 4, 1e6 }, 7, 4, 4e9).rfind("About 2 h (40 min to 6 h)", 0), 0u);
+}
+
+TEST(BakeCost, OfTheFilterIsThatOfItsInput)
+{
+  vtkNew<Filter> filter;
+  EXPECT_STREQ(filter->GetBakeEstimate(), "");
+  filter->SetInputData(lattice(3));
+  EXPECT_NE(std::string(filter->GetBakeEstimate()).find("for 27 particles"), std::string::npos);
+  filter->SetTextureResolution(32);
+  EXPECT_NE(std::string(filter->GetBakeEstimate()).find("memory"), std::string::npos);
+  EXPECT_GE(filter->GetNumberOfCores(), 1);
+  EXPECT_GT(filter->GetFreeMemory(), 1e6);
+}
+
+/// The texts that a bake reports, without their shares.
+std::set<std::string> phasesOf(int method)
+{
+  vtkNew<Filter> filter;
+  filter->SetInputData(lattice(10));
+  filter->SetMethod(method);
+  filter->SetTextureResolution(16);
+  filter->SetSamplesPerTexel(method == Filter::Reference ? 16 : 1000);
+  std::set<std::string> phases;
+  vtkNew<vtkCallbackCommand> command;
+  command->SetClientData(&phases);
+  command->SetCallback(
+    [](vtkObject* caller, unsigned long, void* client, void*)
+    {
+      const char* text = vtkAlgorithm::SafeDownCast(caller)->GetProgressText();
+      const std::string phase = text ? text : "";
+      static_cast<std::set<std::string>*>(client)->insert(phase.substr(0, phase.find(':')));
+    });
+  filter->AddObserver(vtkCommand::ProgressEvent, command);
+  EXPECT_EQ(errorOf(filter), "");
+  EXPECT_EQ(filter->GetProgressText(), nullptr); // nothing stays behind
+  return phases;
+}
+
+TEST(BakeProgress, SaysWhatIsBeingDone)
+{
+  const std::pair<int, const char*> methods[] = { { Filter::Sweep, "Sweep along 2176 directions" },
+    { Filter::Embree, "Rays from 1000 particles" }, { Filter::Reference, "4.1 million rays" } };
+  for (const auto& [method, phase] : methods)
+  {
+    const std::set<std::string> phases = phasesOf(method);
+    EXPECT_TRUE(phases.count("Reading particles"));
+    EXPECT_TRUE(phases.count("Storing textures"));
+    EXPECT_TRUE(phases.count(phase)) << "of " << phases.size() << ", such as " << *phases.rbegin();
+  }
+}
+}
