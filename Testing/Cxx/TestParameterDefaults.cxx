@@ -44,6 +44,7 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "Storage", { f->GetStorage() } },
     { "StorageError", { f->GetStorageError() } },
     { "Seed", { f->GetSeed() } },
+    { "IdArray", { po::RadiusSettings::Automatic } },
     { "UseCache", { f->GetUseCache() } },
     { "CacheDirectory", { f->GetCacheDirectory() } },
     { "CacheSizeLimit", { f->GetCacheSizeLimit() } },
