@@ -63,6 +63,8 @@ public:
     return options_.targetError > 0 ? 29 : 13.0 / options_.parts;
   }
 
+  [[nodiscard]] double estimatedError() const override { return report_.estimatedError; }
+
   /// Of the last estimate.
   [[nodiscard]] const SweepReport& report() const { return report_; }
 
