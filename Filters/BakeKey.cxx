@@ -65,11 +65,12 @@ void add(Digest& digest, const BakeSettings& settings)
 
 void add(Digest& digest, const SphereCloud& cloud)
 {
-  const auto& [origin, scale, spheres, centers, sourceIds, ghosts, rejected] = cloud;
+  const auto& [origin, scale, spheres, centers, sourceIds, ghosts, ids, rejected] = cloud;
   add(digest, origin);
   addNumber(digest, scale);
   digest.add(spheres);
   digest.add(centers);
+  digest.add(ids);
   // The others say what the data set was like; a task has none of them.
 }
 

@@ -141,6 +141,11 @@ RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
     static_cast<RadiusSource>(filter.GetRadiusFrom()), filter.GetDensity() };
 }
 
+std::string idArrayOf(vtkSphereAmbientOcclusion& filter)
+{
+  return textOf(filter.GetIdArray());
+}
+
 CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)
 {
   return { filter.GetUseCache(), textOf(filter.GetCacheDirectory()), filter.GetCacheSizeLimit() };
@@ -169,6 +174,7 @@ OcclusionParameters describeBake(
   parameters.set("radiusArray", textOf(filter.GetRadiusArray()));
   parameters.set("radiusScale", filter.GetRadiusScale());
   parameters.set("constantRadius", filter.GetConstantRadius());
+  parameters.set("idArray", textOf(filter.GetIdArray()));
   parameters.set("radiusFrom", filter.GetRadiusFrom());
   parameters.set("density", filter.GetDensity());
   describeBackground(filter, parameters);

@@ -20,6 +20,8 @@ namespace po
 
 [[nodiscard]] RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter);
 
+[[nodiscard]] std::string idArrayOf(vtkSphereAmbientOcclusion& filter);
+
 [[nodiscard]] CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter);
 
 [[nodiscard]] const char* nameOfMethod(int method);

@@ -82,6 +82,8 @@ ContextPointer openHeaders(
   exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
   options.error_handler_fn = keepMessage;
   options.user_data = &message;
+  // Otherwise it makes up for what is damaged, and the C++ reader meets that.
+  options.flags = EXR_CONTEXT_FLAG_STRICT_HEADER;
   options.max_image_width = limits.width;
   options.max_image_height = limits.height;
   options.max_tile_width = limits.tileSide;

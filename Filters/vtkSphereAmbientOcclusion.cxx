@@ -2,11 +2,10 @@
 #include "vtkSphereAmbientOcclusionInternals.h"
 
 #include "BakeCache.h"
+#include "BakeInput.h"
 #include "BakeParameters.h"
 #include "BakedData.h"
 #include "ControllerGroup.h"
-#include "OccluderInput.h"
-#include "SharedSpheres.h"
 
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"
@@ -18,8 +17,6 @@
 
 #include <chrono>
 #include <functional>
-#include <limits>
-#include <stdexcept>
 
 vtkStandardNewMacro(vtkSphereAmbientOcclusion);
 
@@ -52,15 +49,19 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
 {
   const po::BakeSettings settings = po::settingsOf(*self);
   announce(self, 0, "Reading particles");
-  Particles particles = ReadParticles(self, group, blocks);
-  po::Occluders occluders = ReadOccluders(self, group, occluderData, particles.Cloud);
-  po::BakeTask task = this->MakeTask(self, group, particles, std::move(occluders), settings);
+  po::BakeInput input = po::readBakeInput(*self, settings, blocks, occluderData, group);
+  this->Report = input.report;
+  this->RadiusUsed = input.radiusUsed;
+  for (const std::string& warning : input.warnings)
+  {
+    vtkWarningWithObjectMacro(self, << warning);
+  }
 
   po::Progress progress(reportTo(self, progress)); // which is called later
-  const int method = po::chooseMethod(self->Method, task, group);
+  const int method = po::chooseMethod(self->Method, input.task, group);
   std::string warning;
   po::BakeResult result =
-    po::bakeOrLoad(po::cacheOf(*self), method, task, group, progress, this->Report, warning);
+    po::bakeOrLoad(po::cacheOf(*self), method, input.task, group, progress, this->Report, warning);
   if (!warning.empty())
   {
     vtkWarningWithObjectMacro(self, << warning);
@@ -70,8 +71,8 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
     group.stop(po::WorkState::Aborted);
     throw po::WorkStopped(po::WorkState::Aborted, "");
   }
-  result = po::inOrderOf(particles.Places, task.receivers, std::move(result));
-  this->CountParticles(particles, result, settings, group);
+  result = po::inOrderOf(input.places, input.task.receivers, std::move(result));
+  this->CountParticles(input.own, result, settings, group);
   const double error = this->Report.estimatedError;
   if (self->TargetError > 0 && error > self->TargetError && group.rank() == 0)
   {
@@ -81,80 +82,17 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   }
   group.agree(); // nobody was aborted: from here on it is all or nothing
   announce(self, 1, "Storing textures");
-  po::attachBake(blocks, particles.Cloud, result, po::describeBake(*self, settings, this->Report));
+  po::attachBake(blocks, input.own, result, po::describeBake(*self, settings, this->Report));
   group.agree();
 }
 
-vtkSphereAmbientOcclusion::Internals::Particles vtkSphereAmbientOcclusion::Internals::ReadParticles(
-  vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-  const std::vector<vtkPointSet*>& blocks)
-{
-  std::string error;
-  const po::RadiusSettings radii = po::radiiOf(*self);
-  std::optional<po::ParticleInput> input = po::readBlocks(blocks, radii, error, nullptr, group);
-  if (!input)
-  {
-    throw std::invalid_argument(error);
-  }
-  const po::RejectedParticles rejected = input->cloud.rejected.summed(group);
-  if (rejected.total() > 0 && group.rank() == 0)
-  {
-    vtkWarningWithObjectMacro(self, << po::describe(rejected));
-  }
-  this->RadiusUsed = po::describe(radii, input->radii);
-  return { std::move(input->cloud), {} };
-}
-
-po::Occluders vtkSphereAmbientOcclusion::Internals::ReadOccluders(vtkSphereAmbientOcclusion* self,
-  const po::ProcessGroup& group, vtkDataObject* data, const po::SphereCloud& cloud)
-{
-  po::OccluderInput input = po::readOccluders(data, po::radiiOf(*self), cloud, group);
-  for (const std::string& warning : input.warnings)
-  {
-    if (group.rank() == 0)
-    {
-      vtkWarningWithObjectMacro(self, << warning);
-    }
-  }
-  return std::move(input.occluders);
-}
-
-po::BakeTask vtkSphereAmbientOcclusion::Internals::MakeTask(vtkSphereAmbientOcclusion* self,
-  const po::ProcessGroup& group, Particles& particles, po::Occluders occluders,
-  const po::BakeSettings& settings)
-{
-  const po::SphereCloud& own = particles.Cloud;
-  this->Report.leftOut = own.rejected.summed(group).total();
-  this->Report.occluderSpheres = group.sum(std::uint64_t(occluders.spheres.size()));
-  this->Report.occluderTriangles = group.sum(std::uint64_t(occluders.mesh.triangles.size()));
-
-  const float reach = settings.maximumDistance > 0
-    ? static_cast<float>(settings.maximumDistance / own.scale)
-    : std::numeric_limits<float>::infinity();
-  const po::Neighbourhood neighbourhood(own.spheres, reach, group);
-  po::SharedSpheres shared =
-    po::shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
-  particles.Places = std::move(shared.places);
-
-  po::BakeTask task;
-  task.cloud.origin = own.origin;
-  task.cloud.scale = own.scale;
-  task.cloud.spheres = std::move(shared.spheres);
-  task.cloud.centers = std::move(shared.centers);
-  task.receivers = po::distinct(particles.Places);
-  task.occluders = po::shareOccluders(std::move(occluders), neighbourhood, group);
-  task.settings = settings;
-  task.targetError = self->TargetError;
-  return task;
-}
-
 /// Ghosts were baked, since they are drawn, but count where they are at home.
-void vtkSphereAmbientOcclusion::Internals::CountParticles(const Particles& particles,
+void vtkSphereAmbientOcclusion::Internals::CountParticles(const po::SphereCloud& own,
   const po::BakeResult& result, const po::BakeSettings& settings, const po::ProcessGroup& group)
 {
   std::uint64_t owned = 0;
   std::uint64_t dark = 0;
-  const std::vector<std::uint8_t>& ghosts = particles.Cloud.ghosts;
+  const std::vector<std::uint8_t>& ghosts = own.ghosts;
   for (std::size_t i = 0; i < result.mean.size(); ++i)
   {
     const bool isOwned = ghosts.empty() || ghosts[i] == 0;
@@ -179,6 +117,7 @@ vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
 vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
 {
   this->SetRadiusArray(nullptr);
+  this->SetIdArray(nullptr);
   this->SetBackgroundImage(nullptr);
   this->SetCacheDirectory(nullptr);
 }
@@ -266,6 +205,7 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "InsideThreshold: " << this->InsideThreshold << "\n"
      << indent << "Encoding: " << this->Encoding << "\n"
      << indent << "Seed: " << this->Seed << "\n"
+     << indent << "IdArray: " << (this->IdArray ? this->IdArray : "(automatic)") << "\n"
      << indent << "UseCache: " << this->UseCache << "\n"
      << indent << "CacheDirectory: " << (this->CacheDirectory ? this->CacheDirectory : "") << "\n"
      << indent << "CacheSizeLimit: " << this->CacheSizeLimit << "\n";

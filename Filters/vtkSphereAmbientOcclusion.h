@@ -242,6 +242,18 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Point array of numbers that name the particles through time. Random numbers are seeded by them,
+   * so that what does not move keeps its noise from one step to the next; of Sweep, which needs
+   * none, nothing changes. Empty (default) or "(automatic)": the first of id, Id, ID, ParticleId,
+   * GlobalNodeId, GlobalPointIds that exists. "(none)", or where there is none: place and radius
+   * seed. Particles of the same number have the same random numbers.
+   */
+  vtkSetStringMacro(IdArray);
+  vtkGetStringMacro(IdArray);
+  ///@}
+
+  ///@{
   /// Keep bakes in a cache and load from it [off].
   vtkSetMacro(UseCache, bool);
   vtkGetMacro(UseCache, bool);
@@ -335,6 +347,7 @@ private:
   double InsideThreshold = 0.05;
   int Encoding = UInt8Gamma2;
   int Seed = 1;
+  char* IdArray = nullptr;
   bool UseCache = false;
   char* CacheDirectory = nullptr;
   int CacheSizeLimit = 4096;

@@ -19,27 +19,11 @@ struct vtkSphereAmbientOcclusion::Internals
   std::string RadiusUsed;
   std::string Estimate;
 
-  /// What was read of this process' data.
-  struct Particles
-  {
-    po::SphereCloud Cloud;
-    std::vector<unsigned> Places; ///< of each sphere in the cloud of the task
-  };
-
   /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
   void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
     const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluderData);
 
-  Particles ReadParticles(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    const std::vector<vtkPointSet*>& blocks);
-  static po::Occluders ReadOccluders(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    vtkDataObject* data, const po::SphereCloud& cloud);
-
-  /// Exchanges particles and occluders with the other processes.
-  po::BakeTask MakeTask(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
-    Particles& particles, po::Occluders occluders, const po::BakeSettings& settings);
-
-  void CountParticles(const Particles& particles, const po::BakeResult& result,
+  void CountParticles(const po::SphereCloud& own, const po::BakeResult& result,
     const po::BakeSettings& settings, const po::ProcessGroup& group);
 };
 

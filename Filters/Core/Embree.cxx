@@ -31,8 +31,17 @@ const char* describe(RTCError error)
   }
 }
 
-/// Where an allocation of its own fails, Embree 3.13 may corrupt its heap or hang. So memory that
-/// is plainly missing is told before. This is no proof: others may take it in between.
+[[noreturn]] void throwError(RTCError error, const char* action)
+{
+  if (error == RTC_ERROR_OUT_OF_MEMORY)
+  {
+    throw std::bad_alloc();
+  }
+  throw std::runtime_error(std::string("Embree failed while ") + action + ": " + describe(error));
+}
+
+/// Memory that is plainly missing is told before Embree takes the first of it. This is no proof:
+/// others may take it in between.
 void requireMemoryForScene(std::size_t primitives)
 {
   // As much as bakeMemory() counts; the rest is for blocks that each thread takes at once.
@@ -66,8 +75,7 @@ SceneHandle makeScene(RTCDevice device)
   SceneHandle scene(rtcNewScene(device));
   if (!scene)
   {
-    throwOnError(device, "making a scene");
-    throw std::runtime_error("Embree made no scene and gave no reason.");
+    throwError(rtcGetDeviceError(device), "making a scene");
   }
   return scene;
 }
@@ -87,16 +95,16 @@ GeometryHandle makeGeometry(RTCDevice device, RTCGeometryType type, const char* 
   return geometry;
 }
 
-void throwOnError(RTCDevice device, const char* action)
+void commitScene(RTCDevice device, SceneHandle& scene, const char* action)
 {
+  rtcCommitScene(scene.get());
   const RTCError error = rtcGetDeviceError(device);
-  if (error == RTC_ERROR_OUT_OF_MEMORY)
-  {
-    throw std::bad_alloc();
-  }
   if (error != RTC_ERROR_NONE)
   {
-    throw std::runtime_error(std::string("Embree failed while ") + action + ": " + describe(error));
+    // Embree 3.13 would end the process, instead of releasing the scene, where the build failed in
+    // a parallel task or since no thread could be started.
+    static_cast<void>(scene.release());
+    throwError(error, action);
   }
 }
 }

@@ -135,8 +135,10 @@ using GeometryHandle = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Relea
 [[nodiscard]] GeometryHandle makeGeometry(
   RTCDevice device, RTCGeometryType type, const char* option);
 
-/// Throws std::runtime_error if the device has an error to report; `action` says what was tried.
-void throwOnError(RTCDevice device, const char* action);
+/// Builds what queries go through. Throws std::bad_alloc or std::runtime_error if that fails, now
+/// or at a call before that reported nothing; `action` says what was tried. Such a scene is given
+/// up, memory and all.
+void commitScene(RTCDevice device, SceneHandle& scene, const char* action);
 }
 
 #endif

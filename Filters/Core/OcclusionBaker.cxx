@@ -159,6 +159,10 @@ BakeScene::BakeScene(
 
 std::uint64_t BakeScene::randomKey(unsigned particle) const
 {
+  if (!cloud.ids.empty())
+  {
+    return mixBits(cloud.ids[particle] + 0x9E3779B97F4A7C15ull);
+  }
   std::array<std::uint64_t, 2> words{};
   static_assert(sizeof(words) == sizeof(Sphere));
   std::memcpy(words.data(), &cloud.spheres[particle], sizeof(words));

@@ -32,8 +32,9 @@ struct BakeScene
   /// Number of particles; also the number of the first sphere that is none.
   [[nodiscard]] std::size_t receivers() const { return cloud.spheres.size(); }
 
-  /// A number that stands for a particle in the choice of random numbers. It depends on the sphere
-  /// alone: a particle keeps its noise, whatever it is read after and whoever bakes it.
+  /// A number that stands for a particle in the choice of random numbers. It depends on its
+  /// id alone, or without ids on its sphere: a particle keeps its noise, whatever it is read after
+  /// and whoever bakes it.
   [[nodiscard]] std::uint64_t randomKey(unsigned particle) const;
 
   const SphereCloud& cloud;  ///< the particles alone

@@ -171,7 +171,6 @@ OverlapFinder::OverlapFinder(const SphereSet& spheres)
   {
     addBoxes(brick);
   }
-  throwOnError(device_.get(), "building the search structure for overlaps");
 }
 
 void OverlapFinder::addBoxes(const Brick& brick)
@@ -185,7 +184,7 @@ void OverlapFinder::addBoxes(const Brick& brick)
     geometry.get(), [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scenes_.back().get(), geometry.get());
-  rtcCommitScene(scenes_.back().get());
+  commitScene(device_.get(), scenes_.back(), "building the search structure for overlaps");
 }
 
 /// Calls visit for all spheres whose box comes within `radius` of the centre of sphere `id`.

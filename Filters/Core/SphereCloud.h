@@ -46,6 +46,8 @@ struct SphereCloud
   /// Flags by sphere: copies of particles that another process, or another block, has. Empty where
   /// nobody asked.
   std::vector<std::uint8_t> ghosts;
+  /// What random numbers of each sphere are seeded by; empty: by the spheres themselves.
+  std::vector<std::uint64_t> ids;
   RejectedParticles rejected;
 
   /// Local, in full.

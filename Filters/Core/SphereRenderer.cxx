@@ -211,8 +211,10 @@ void SphereRenderer::shadeBehind()
     behind_.clear();
     return;
   }
+  const auto most = static_cast<std::size_t>(std::max(style_.maximumLayers - 1, 0));
+  behind_.resize(std::min(behind_.size(), most));
   std::vector<float> light(first_.frame.pixels(), 1); // that all layers so far let through
-  for (std::size_t number = 0; static_cast<int>(number) + 1 < style_.maximumLayers; ++number)
+  for (std::size_t number = 0; number < most; ++number)
   {
     const FrameLayer& inFront = number == 0 ? first_ : behind_[number - 1];
     if (!traceLayer(inFront, number, pixelsToLookBehind(inFront, light)))

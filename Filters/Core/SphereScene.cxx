@@ -166,17 +166,16 @@ SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
   {
     mesh_ = makeScene(device_.get());
     addTriangles(mesh_.get(), mesh);
-    rtcCommitScene(mesh_.get());
+    commitScene(device_.get(), mesh_, "building the scene of triangles");
   }
   else if (hasMesh_)
   {
     addTriangles(scenes_.front().get(), mesh);
   }
-  for (const SceneHandle& scene : scenes_)
+  for (SceneHandle& scene : scenes_)
   {
-    rtcCommitScene(scene.get());
+    commitScene(device_.get(), scene, "building the scene of spheres");
   }
-  throwOnError(device_.get(), "building the scene of spheres");
 }
 
 void SphereScene::addSpheres(RTCScene scene, const Brick& brick)

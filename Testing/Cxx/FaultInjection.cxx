@@ -4,10 +4,12 @@
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <link.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
@@ -32,6 +34,8 @@ std::atomic<RTCError> pendingError{ RTC_ERROR_NONE };
 std::atomic<bool> memoryIsLimited{ false };
 std::atomic<std::ptrdiff_t> embreeBytes{ 0 };
 std::atomic<std::ptrdiff_t> largestEmbreeBytes{ 0 };
+
+std::atomic<bool> threadsFail{ false };
 
 struct AddressRange
 {
@@ -237,6 +241,15 @@ extern "C"
       next(scene);
     }
   }
+
+#ifndef PARTICLEOCCLUSION_SANITIZED
+  INTERPOSED int pthread_create(
+    pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* argument)
+  {
+    static auto* const next = real(&pthread_create, "pthread_create");
+    return threadsFail ? EAGAIN : next(thread, attributes, run, argument);
+  }
+#endif
 }
 
 FailingAllocation::FailingAllocation(std::size_t n)
@@ -290,3 +303,15 @@ EmbreeMemoryLimit::~EmbreeMemoryLimit()
 {
   memoryIsLimited = false;
 }
+
+#ifndef PARTICLEOCCLUSION_SANITIZED
+NoNewThreads::NoNewThreads()
+{
+  threadsFail = true;
+}
+
+NoNewThreads::~NoNewThreads()
+{
+  threadsFail = false;
+}
+#endif

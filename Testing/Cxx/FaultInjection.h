@@ -63,4 +63,16 @@ public:
   EmbreeMemoryLimit& operator=(const EmbreeMemoryLimit&) = delete;
 };
 
+#ifndef PARTICLEOCCLUSION_SANITIZED // the sanitizers start threads of their own, their own way
+/// While alive, no thread can be started, as where a container allows no more of them.
+class NoNewThreads
+{
+public:
+  NoNewThreads();
+  ~NoNewThreads();
+  NoNewThreads(const NoNewThreads&) = delete;
+  NoNewThreads& operator=(const NoNewThreads&) = delete;
+};
+#endif
+
 #endif

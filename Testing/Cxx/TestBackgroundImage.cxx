@@ -314,6 +314,27 @@ TEST(BackgroundImage, AbsurdSizesAreRefusedBeforeAllocation)
   EXPECT_HAS(claim(8, 80), "a.exr");
 }
 
+TEST(BackgroundImage, AbsurdSizeOfAnAttributeIsNotAllocated)
+{
+  TemporaryFolder folder;
+  const std::string file = folder.file("a.exr");
+  writeFloats(file, Imf::Header(8, 4), rgb(32));
+  Bytes bytes = readBytes(file);
+  // The list of channels has a size without its last byte, where one of OpenEXR's readers takes the
+  // header for ended and the other one goes on: to an attribute without a type, of 1.9 gigabytes.
+  const std::string channels("channels\0chlist\0", 16);
+  const auto list = std::search(bytes.begin(), bytes.end(), channels.begin(), channels.end());
+  ASSERT_NE(list, bytes.end());
+  const auto size = list + static_cast<std::ptrdiff_t>(channels.size());
+  const std::ptrdiff_t listed = *size;
+  --*size;
+  const std::string absurd("name\0\0\0\0\0\x72zzzz", 14);
+  bytes.erase(size + 4 + listed, bytes.end());
+  bytes.insert(bytes.end(), absurd.begin(), absurd.end());
+  writeBytes(file, bytes);
+  EXPECT_HAS(errorOf(file), "header is damaged");
+}
+
 TEST(BackgroundImage, ForeignFilesAreErrorsThatNameThem)
 {
   TemporaryFolder folder;

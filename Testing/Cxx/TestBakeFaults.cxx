@@ -292,6 +292,29 @@ TEST_P(BakeFaults, EmbreeMayRunOutOfMemory)
   EXPECT_TRUE(bake.bits() == whole);
 }
 
+#ifndef PARTICLEOCCLUSION_SANITIZED
+TEST_P(BakeFaults, NoThreadMayBeStarted)
+{
+  // In a process of its own, in which none has been started yet. Unless Embree's scene is given up
+  // after that, it ends the process.
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto bakeWithoutThreads = []
+  {
+    SmallBake bake(GetParam());
+    const std::string error = bake.errorUnder(
+      [](const auto& run)
+      {
+        const NoNewThreads none;
+        run();
+      },
+      {});
+    std::fprintf(stderr, "the bake said: %s", error.c_str());
+    std::exit(error.empty() || testing::Test::HasFailure() ? 1 : 0);
+  };
+  EXPECT_EXIT(bakeWithoutThreads(), testing::ExitedWithCode(0), "the bake said: .*thread");
+}
+#endif
+
 TEST_P(BakeFaults, AbortsLeaveTheInputAndTheNextBakeItsBits)
 {
   SmallBake bake(GetParam(), lattice(7));

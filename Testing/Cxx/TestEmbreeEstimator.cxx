@@ -24,17 +24,23 @@ po::EmbreeEstimator embreeOf(int directions)
   return po::EmbreeEstimator(options);
 }
 
-/// Embree against Reference with many rays: no bias above 0.002, and an RMS difference that 2048
-/// directions leave.
-void expectLikeReference(const po::BakeScene& scene, const po::BakeSettings& settings, double rms)
+/// Embree against Reference with many rays, on the listed particles: no bias above 0.002, and an
+/// RMS difference that 2048 directions leave.
+void expectLikeReferenceOn(const std::vector<unsigned>& particles, const po::BakeScene& scene,
+  const po::BakeSettings& settings, double rms)
 {
   po::BakeSettings fine = settings;
   fine.samplesPerTexel = 4000;
-  const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, fine);
-  const Estimates ours = estimateAll(embreeOf(2048), scene, settings);
+  const Estimates judge = estimateList(po::ReferenceEstimator(), scene, particles, fine);
+  const Estimates ours = estimateList(embreeOf(2048), scene, particles, settings);
   const Difference difference = compare(ours, judge, settings.textureResolution);
   EXPECT_LT(difference.rms, rms);
   EXPECT_LT(std::abs(difference.bias), 0.002);
+}
+
+void expectLikeReference(const po::BakeScene& scene, const po::BakeSettings& settings, double rms)
+{
+  expectLikeReferenceOn(allOf(scene), scene, settings, rms);
 }
 
 void expectLikeReference(
@@ -162,6 +168,45 @@ TEST(EmbreeEstimator, AgreesWithReferenceWhereMoreSpheresAreNearThanAreListed)
   expectLikeReference(spheres, floatSettings(6, 49), 0.012);
 }
 
+TEST(EmbreeEstimator, AFullListOfNearSpheresIsNotTakenForAll)
+{
+  // A ball in dust so thick that the nearest 128 grains are a part of what is near. With a maximum
+  // distance only that asks for rays; without one, for rays of every texel. The grains are not
+  // judged: few of them have full lists.
+  std::vector<po::Sphere> spheres{ { 0, 0, 0, 1 } };
+  po::Random random(6, 0, 0);
+  while (spheres.size() < 500)
+  {
+    const auto coordinate = [&] { return static_cast<float>(4.4 * random.uniform() - 2.2); };
+    const po::Sphere grain{ coordinate(), coordinate(), coordinate(), 0.1f };
+    if (length(grain.center()) > 1.1f)
+    {
+      spheres.push_back(grain);
+    }
+  }
+  const po::SphereCloud cloud = cloudOf(spheres);
+  const po::BakeScene scene(cloud);
+  for (const double distance : { 0.0, 2.0 })
+  {
+    SCOPED_TRACE(distance);
+    po::BakeSettings settings = floatSettings(6, 49);
+    settings.maximumDistance = distance;
+    expectLikeReferenceOn({ 0 }, scene, settings, 0.018);
+  }
+}
+
+TEST(EmbreeEstimator, RaysThatStandForManyTexelsKeepTheMean)
+{
+  // A large sphere just beyond the near ones, above or below: from the upper texels of each square
+  // it looks larger, or smaller, than from all of them, and likewise from those that face it less.
+  for (const float side : { -1.0f, 1.0f })
+  {
+    SCOPED_TRACE(side);
+    const po::SphereCloud cloud = cloudOf({ { 0, 0, 0, 1 }, { 0, 0, side * 14.1f, 10 } });
+    expectLikeReferenceOn({ 0 }, po::BakeScene(cloud), floatSettings(4, 49), 0.02);
+  }
+}
+
 TEST(EmbreeEstimator, AgreesWithReferenceAmongTriangles)
 {
   // A cup of walls that lie aslant: they touch and cut some of the particles, and are far from
@@ -176,6 +221,24 @@ TEST(EmbreeEstimator, AgreesWithReferenceAmongTriangles)
   po::BakeSettings bounded = floatSettings(6, 49);
   bounded.maximumDistance = 1;
   expectLikeReference(scene, bounded, 0.01);
+}
+
+TEST(EmbreeEstimator, NearTrianglesCastSharpShadows)
+{
+  // Small plates all around, nearly in contact: rays that stood for many texels would blur their
+  // shadows.
+  po::Occluders plates;
+  for (const float side : { -1.2f, 1.2f })
+  {
+    addRectangle(plates.mesh, { side, 0, 0 }, { 0, 0.3f, 0 }, { 0, 0, 0.3f });
+    addRectangle(plates.mesh, { 0, side, 0 }, { 0, 0, 0.3f }, { 0.3f, 0, 0 });
+    addRectangle(plates.mesh, { 0, 0, side }, { 0.3f, 0, 0 }, { 0, 0.3f, 0 });
+  }
+  const po::SphereCloud cloud = cloudOf({ { 0, 0, 0, 1 } });
+  const po::BakeScene scene(cloud, plates);
+  const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, floatSettings(12, 4000));
+  const Estimates ours = estimateAll(embreeOf(512), scene, floatSettings(12, 49));
+  EXPECT_LT(compare(ours, judge, 12).rms, 0.03);
 }
 
 TEST(EmbreeEstimator, ASphereOnAPlaneSeesHalfTheSky)

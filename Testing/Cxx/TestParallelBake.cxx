@@ -40,6 +40,25 @@ TEST_P(ParallelBake, SameBitsHoweverTheParticlesAreDistributed)
   }
 }
 
+TEST_P(ParallelBake, SameBitsWithIds)
+{
+  const auto whole = mixedCloud(300);
+  vtkNew<vtkIdTypeArray> numbers;
+  numbers->SetName("number");
+  for (vtkIdType i = 0; i < whole->GetNumberOfPoints(); ++i)
+  {
+    numbers->InsertNextValue(i);
+  }
+  whole->GetPointData()->AddArray(numbers);
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetMethod(GetParam());
+    filter->SetSamplesPerTexel(4);
+    filter->SetIdArray("number");
+  };
+  EXPECT_EQ(differenceFromAlone(whole, interleaved, prepare).particles, 0);
+}
+
 TEST_P(ParallelBake, SameWithATargetError)
 {
   const auto whole = mixedCloud(300);

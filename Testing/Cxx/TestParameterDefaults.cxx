@@ -42,6 +42,7 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "InsideThreshold", { f->GetInsideThreshold() } },
     { "Encoding", { f->GetEncoding() } },
     { "Seed", { f->GetSeed() } },
+    { "IdArray", { po::RadiusSettings::Automatic } },
     { "UseCache", { f->GetUseCache() } },
     { "CacheDirectory", { f->GetCacheDirectory() } },
     { "CacheSizeLimit", { f->GetCacheSizeLimit() } },

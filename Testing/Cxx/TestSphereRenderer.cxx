@@ -2,6 +2,7 @@
 // Cropping, layers behind translucent spheres, smooth edges, and what is kept between frames.
 #include "Cropping.h"
 #include "InteractiveResolution.h"
+#include "SceneCache.h"
 #include "SphereRenderer.h"
 #include "TestViews.h"
 
@@ -9,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <utility>
 
 namespace
 {
@@ -215,6 +218,98 @@ TEST(SphereRenderer, NothingIsDoneWhenNothingHasChanged)
   renderer.shade(style);
   EXPECT_EQ(renderer.statistics().framesShaded, 2u);
   EXPECT_EQ(renderer.statistics().framesTraced, 1u);
+}
+
+TEST(SphereRenderer, WhatHasChangedIsDoneAgain)
+{
+  // After each change the picture is another one, and that of a renderer which knew nothing before.
+  const SphereCloud cloud = randomCloud(300);
+  const std::vector<std::int32_t> rows(300, 0);
+  const std::vector<float> halves(1, 0.5f), quarters(1, 0.25f);
+  Camera camera = view();
+  Matrix4 placement = Identity;
+  Style style = directLight();
+  style.material.mode = ShadingMode::Both;
+  style.material.translucent = true;
+  style.material.opacity = 0.5;
+  style.shadows = true;
+  style.textures = OcclusionTextures(1, halves.data(), rows.data(), nullptr);
+  const std::pair<const char*, std::function<void()>> changes[] = {
+    { "camera", [&] { camera = lookAtOrigin(true, 30, 9, 120, 90, 1, 100); } },
+    { "size of the window", [&] { camera = lookAtOrigin(true, 30, 9, 90, 90, 1, 100); } },
+    { "placement", [&] { placement = translation(1, 0, 0); } },
+    { "direction of the light",
+      [&] {
+        style.lights[0].direction = { 0, 0, -1 };
+      } },
+    { "kind of the light", [&] { style.lights[0].positional = true; } },
+    { "position of the light",
+      [&] {
+        style.lights[0].position = { 0, 3, 9 };
+      } },
+    { "attenuation",
+      [&] {
+        style.lights[0].attenuation = { 5, 0, 0 };
+      } },
+    { "cone", [&] { style.lights[0].coneAngle = 20; } },
+    { "colour of the light",
+      [&] {
+        style.lights[0].color = { 1, 0, 0 };
+      } },
+    { "another light", [&] { style.lights.emplace_back(); } },
+    { "textures",
+      [&]
+      {
+        style.textures = OcclusionTextures(1, quarters.data(), rows.data(), nullptr);
+        ++style.texturesVersion;
+      } },
+    { "colour",
+      [&] {
+        style.material.diffuseColor = { 0, 1, 0 };
+      } },
+    { "opacity", [&] { style.material.opacity = 0.8; } },
+    { "number of layers", [&] { style.maximumLayers = 2; } },
+    { "shadows", [&] { style.shadows = false; } },
+  };
+  const auto draw = [&](SphereRenderer& renderer)
+  {
+    ASSERT_TRUE(renderer.trace(camera, placement));
+    renderer.shade(style);
+  };
+  const auto picture = [](const SphereRenderer& renderer)
+  {
+    std::vector<std::uint8_t> rgba = renderer.rgba();
+    for (const FrameLayer& layer : renderer.layersBehind())
+    {
+      rgba.insert(rgba.end(), layer.rgba.begin(), layer.rgba.end());
+    }
+    return rgba;
+  };
+  SphereRenderer renderer;
+  renderer.setCloud(cloud);
+  draw(renderer);
+  for (const auto& [what, change] : changes)
+  {
+    const std::vector<std::uint8_t> before = picture(renderer);
+    change();
+    draw(renderer);
+    SphereRenderer fresh;
+    fresh.setCloud(cloud);
+    draw(fresh);
+    EXPECT_TRUE(picture(renderer) != before) << what;
+    EXPECT_TRUE(picture(renderer) == picture(fresh)) << what;
+  }
+}
+
+TEST(SceneCache, EqualFloatsAboutOtherCentersAreAnotherScene)
+{
+  const std::vector<Sphere> spheres{ { 0, 0, 0, 1 }, { 4, 0, 0, 1 } };
+  SceneCache cache;
+  const auto first = cache.get(spheres, { { 0, 0, 0 }, { 4, 0, 0 } });
+  const auto second = cache.get(spheres, { { 0, 0, 0 }, { 4 + 1e-9, 0, 0 } });
+  EXPECT_NE(first, second);
+  EXPECT_EQ(cache.get(spheres, { { 0, 0, 0 }, { 4, 0, 0 } }), first);
+  EXPECT_EQ(cache.size(), 2u);
 }
 
 TEST(SmoothEdges, PlacesAreSpreadEvenly)

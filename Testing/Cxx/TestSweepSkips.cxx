@@ -61,14 +61,14 @@ struct Swept
   po::BakeCounters counters;
 };
 
-Swept sweep(const po::BakeScene& scene, const po::SweepSkips& skips)
+Swept sweep(const po::BakeScene& scene, const po::SweepSkips& skips,
+  const po::BakeSettings& settings = floatSettings(4, 49))
 {
   po::SweepOptions options;
   options.directions = 128;
   options.skips = skips;
   Swept swept;
-  swept.estimates =
-    estimateAll(po::SweepEstimator(options), scene, floatSettings(4, 49), &swept.counters);
+  swept.estimates = estimateAll(po::SweepEstimator(options), scene, settings, &swept.counters);
   return swept;
 }
 
@@ -97,6 +97,39 @@ TEST(SweepSkips, ClosedCellsChangeNothing)
     ASSERT_EQ(open.estimates.values.size(), closed.estimates.values.size());
     EXPECT_LE(countDiffering(closed.estimates.values, open.estimates.values), dense.differing);
   }
+}
+
+TEST(SweepSkips, BlackSkyChangesNothing)
+{
+  const po::SphereCloud cloud = cloudOf(mixedScene());
+  const po::BakeScene scene(cloud);
+  po::BakeSettings settings = floatSettings(4, 49);
+  // Half of the sky is black, or only nearly so.
+  for (const float dark : { 0.0f, 0.01f })
+  {
+    settings.background = po::ImageBackground{ 4, 2, { 1, 1, 1, 1, dark, dark, dark, dark } };
+    po::SweepSkips skips;
+    const Swept skipped = sweep(scene, skips, settings);
+    skips.blackSky = false;
+    const Swept all = sweep(scene, skips, settings);
+    EXPECT_EQ(skipped.counters.directionsBlack > 0, dark == 0);
+    EXPECT_EQ(all.counters.directionsBlack, 0u);
+    EXPECT_EQ(skipped.estimates.values, all.estimates.values);
+    EXPECT_EQ(skipped.estimates.shares, all.estimates.shares);
+  }
+}
+
+TEST(SweepSkips, UnequalSpheresAreNotLookedUp)
+{
+  std::vector<po::Sphere> spheres = layers(2.1f, 1, 1);
+  spheres.front().radius = 1.01f; // a single one
+  const po::SphereCloud cloud = cloudOf(spheres);
+  const po::BakeScene scene(cloud);
+  po::SweepSkips skips;
+  skips.closedCells = false; // they may close or not by what the masks cost
+  const Swept with = sweep(scene, skips);
+  skips.offsetMasks = false;
+  EXPECT_EQ(with.estimates.values, sweep(scene, skips).estimates.values);
 }
 
 TEST(SweepEstimator, WhatIsAloneWithinTheMaximumDistanceChangesNothing)

@@ -161,7 +161,7 @@ FILTER = dict(RadiusArray="radius", RadiusScale=0.9, ConstantRadius=0.4, Texture
               TargetError=0.2, Method="Embree", MaximumDistance=3.0, Background="Gradient",
               BackgroundUp=[0.0, 1.0, 0.5], BackgroundBottom=0.25, BackgroundTop=1.5,
               BackgroundImage="sky.exr", DilateInside=0, InsideThreshold=0.1, Encoding="Float32Linear", Seed=7,
-              UseCache=1, CacheDirectory=CACHE.name, CacheSizeLimit=100)
+              IdArray="radius", UseCache=1, CacheDirectory=CACHE.name, CacheSizeLimit=100)
 DISPLAY = dict(RadiusArray="radius", RadiusScale=0.8, ConstantRadius=0.3, ShadingMode="Ambient Occlusion",
                OcclusionOnDiffuse=0, Shadows=1, LayersFile="layers.exr", LayersResolution=[320, 240])
 VIEW = dict(SilhouetteVisibility=0, SilhouetteThreshold=2.5, SilhouetteBackgroundDepth=30.0,

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BakeInput.h"
+
+#include "BakeParameters.h"
+#include "BakedData.h"
+#include "OccluderInput.h"
+#include "ParticleIds.h"
+#include "SharedSpheres.h"
+#include "vtkSphereAmbientOcclusion.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace po
+{
+namespace
+{
+void readParticles(BakeInput& input, const RadiusSettings& radii,
+  const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
+{
+  std::string error;
+  std::optional<ParticleInput> particles = readBlocks(blocks, radii, error, nullptr, group);
+  if (!particles)
+  {
+    throw std::invalid_argument(error);
+  }
+  input.own = std::move(particles->cloud);
+  input.radiusUsed = describe(radii, particles->radii);
+}
+
+/// Numbers of the particles in the order of the task's cloud, any for those of other processes;
+/// empty without ids. Of particles that share a place the smallest counts, whatever their order.
+std::vector<std::uint64_t> idsByPlace(const std::vector<std::uint64_t>& idOfPoint,
+  const SphereCloud& own, const std::vector<unsigned>& places, std::size_t spheres)
+{
+  constexpr std::uint64_t None = std::numeric_limits<std::uint64_t>::max();
+  if (idOfPoint.empty())
+  {
+    return {};
+  }
+  std::vector<std::uint64_t> ids(spheres, None);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    std::uint64_t& id = ids[places[i]];
+    id = std::min(id, idOfPoint[static_cast<std::size_t>(own.sourceIds[i])]);
+  }
+  return ids;
+}
+
+/// Exchanges particles and occluders with the other processes.
+void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint64_t>& idOfPoint,
+  const BakeSettings& settings, const ProcessGroup& group)
+{
+  const SphereCloud& own = input.own;
+  const float reach = settings.maximumDistance > 0
+    ? static_cast<float>(settings.maximumDistance / own.scale)
+    : std::numeric_limits<float>::infinity();
+  const Neighbourhood neighbourhood(own.spheres, reach, group);
+  SharedSpheres shared = shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
+  input.places = std::move(shared.places);
+
+  BakeTask& task = input.task;
+  task.cloud.origin = own.origin;
+  task.cloud.scale = own.scale;
+  task.cloud.spheres = std::move(shared.spheres);
+  task.cloud.centers = std::move(shared.centers);
+  task.cloud.ids = idsByPlace(idOfPoint, own, input.places, task.cloud.spheres.size());
+  task.receivers = distinct(input.places);
+  task.occluders = shareOccluders(std::move(occluders), neighbourhood, group);
+  task.settings = settings;
+}
+}
+
+BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& settings,
+  const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluders, const ProcessGroup& group)
+{
+  BakeInput input;
+  readParticles(input, radiiOf(filter), blocks, group);
+  const std::vector<std::uint64_t> idOfPoint = readIds(blocks, idArrayOf(filter), group);
+  OccluderInput others = readOccluders(occluders, radiiOf(filter), input.own, group);
+
+  const RejectedParticles rejected = input.own.rejected.summed(group);
+  input.report.leftOut = rejected.total();
+  input.report.occluderSpheres = group.sum(std::uint64_t(others.occluders.spheres.size()));
+  input.report.occluderTriangles = group.sum(std::uint64_t(others.occluders.mesh.triangles.size()));
+  if (group.rank() == 0)
+  {
+    input.warnings = std::move(others.warnings);
+    if (rejected.total() > 0)
+    {
+      input.warnings.insert(input.warnings.begin(), describe(rejected));
+    }
+  }
+  makeTask(input, std::move(others.occluders), idOfPoint, settings, group);
+  input.task.targetError = filter.GetTargetError();
+  return input;
+}
+}
