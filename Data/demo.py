@@ -4,10 +4,13 @@ them in four ways, and leaves pictures and files in demo-output/.
 
 Run it by `bash Data/demo.sh`, which builds the plugin and starts a virtual display.
 """
-import glob
 import os
+import sys
 
 from paraview.simple import *
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "Examples"))
+import plugin  # noqa: E402
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 OUTPUT = os.path.join(ROOT, "demo-output")
@@ -16,15 +19,6 @@ SIZE = [1000, 700]
 
 def output(name):
     return os.path.join(OUTPUT, name)
-
-
-def load_plugin():
-    """Loads what `cmake --build` left in build/, or the plugin that the environment names."""
-    built = glob.glob(os.path.join(ROOT, "build", "lib*", "**", "ParticleOcclusion.so"), recursive=True)
-    plugin = os.environ.get("PARTICLEOCCLUSION_PLUGIN") or (built and built[0])
-    if not plugin:
-        raise SystemExit("The plugin is not built: run `bash Data/demo.sh`.")
-    LoadPlugin(plugin, ns=globals())
 
 
 def bake(particles):
@@ -146,7 +140,7 @@ def print_table(baked, display):
 
 
 def main():
-    load_plugin()
+    plugin.load(globals())
     os.makedirs(OUTPUT, exist_ok=True)
     particles = OpenDataFile(os.path.join(ROOT, "Data", "bullet_1000.vtp"))
     baked = bake(particles)

@@ -37,6 +37,7 @@ public:
   vtkGetFilePathMacro(FileName);
   ///@}
 
+  /// What a texel takes in the file.
   enum PrecisionType
   {
     Float = 0, ///< 32 bits a texel

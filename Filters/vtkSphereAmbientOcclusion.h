@@ -89,6 +89,7 @@ public:
   vtkGetStringMacro(RadiusArray);
   ///@}
 
+  /// What the values of RadiusArray are.
   enum RadiusSourceType
   {
     RadiiInArray = 0, ///< the values of RadiusArray
@@ -147,6 +148,7 @@ public:
   vtkGetMacro(TargetError, double);
   ///@}
 
+  /// How visibility is found.
   enum MethodType
   {
     Automatic = 0, ///< Sweep; Embree if a mesh occludes, MaximumDistance is at most two mean radii,
@@ -169,6 +171,7 @@ public:
   vtkGetMacro(MaximumDistance, double);
   ///@}
 
+  /// Where the light comes from that occlusion takes away.
   enum BackgroundType
   {
     Uniform = 0, ///< luminance 1 from everywhere
@@ -222,6 +225,7 @@ public:
   vtkGetMacro(InsideThreshold, double);
   ///@}
 
+  /// How the table stores a value.
   enum EncodingType
   {
     UInt8Gamma2 = 0,  ///< byte = round(255 sqrt(value / maximum))

@@ -151,7 +151,7 @@ constexpr double BytesPerSphere = 300;
 BakeScene::BakeScene(
   const SphereCloud& sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
   : cloud(sphereCloud)
-  , rays(joined(sphereCloud, occluders), occluders.mesh)
+  , rays(joined(sphereCloud, occluders), occluders.mesh, SphereScene::Queries::Occlusion)
   , overlaps(rays.set())
   , group(processes)
 {

@@ -68,9 +68,9 @@ double gatherLight(const Plan& plan, unsigned id, const TexelRay* first, const T
   for (; first != last; ++first)
   {
     const TexelRay& ray = *first;
-    if (!plan.scene.rays.occluded(ray.origin, ray.direction.as<float>(), plan.rayLength, id))
+    if (!plan.scene.rays.occluded(ray.origin, ray.direction, plan.rayLength, id))
     {
-      light += plan.uniform ? 1 : luminance(plan.settings.background, ray.direction);
+      light += plan.uniform ? 1 : luminance(plan.settings.background, ray.direction.as<double>());
     }
   }
   return light;
@@ -83,9 +83,9 @@ void makeRow(const Plan& plan, unsigned id, int row, float* shares, Workspace& w
   work.ends.clear();
   for (int column = 0; column < plan.resolution; ++column)
   {
-    const int samples = plan.rays.makeRays(id, row, column, work.rays);
-    const std::size_t outside = work.rays.rays.size();
-    work.row.insert(work.row.end(), work.rays.rays.begin(), work.rays.rays.end());
+    const std::size_t before = work.row.size();
+    const int samples = plan.rays.makeRays(id, row, column, work.rays, work.row);
+    const std::size_t outside = work.row.size() - before;
     work.ends.push_back(work.row.size());
     work.counters.texelsInside += samples == 0;
     work.counters.rays += outside;

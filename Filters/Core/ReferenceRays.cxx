@@ -75,8 +75,8 @@ bool ReferenceRays::isCovered(int row, int column, Workspace& work) const
 }
 
 /// One stratified set of rays from the part of a texel that is outside the cutting caps.
-void ReferenceRays::addSet(
-  unsigned id, const TexelPatch& patch, Random& random, Workspace& work) const
+void ReferenceRays::addSet(unsigned id, const TexelPatch& patch, Random& random, Workspace& work,
+  std::vector<TexelRay>& rays) const
 {
   const Sphere sphere = scene_.rays.set().inBrick(id);
   randomPermutation(random, work.pairing);
@@ -90,15 +90,15 @@ void ReferenceRays::addSet(
     const Vec3d normal = patch.point(place.x, place.y);
     if (!insideAny(work.cuttingCaps, normal))
     {
-      work.rays.push_back({ sphere.center() + sphere.radius * normal.as<float>(),
-        aboutNormal(normal, cosineHemisphereFromSquare(heading)) });
+      rays.push_back({ sphere.center() + sphere.radius * normal.as<float>(),
+        aboutNormal(normal, cosineHemisphereFromSquare(heading)).as<float>() });
     }
   }
 }
 
-int ReferenceRays::makeRays(unsigned id, int row, int column, Workspace& work) const
+int ReferenceRays::makeRays(
+  unsigned id, int row, int column, Workspace& work, std::vector<TexelRay>& rays) const
 {
-  work.rays.clear();
   if (isCovered(row, column, work))
   {
     return 0;
@@ -113,13 +113,14 @@ int ReferenceRays::makeRays(unsigned id, int row, int column, Workspace& work) c
   // overlap: it gets further sets. Where to stop depends on the geometry alone, so there is no
   // bias.
   constexpr int MaximumSets = 8;
+  const std::size_t before = rays.size();
   int sets = 0;
   do
   {
-    addSet(id, patch, random, work);
+    addSet(id, patch, random, work, rays);
     ++sets;
-  } while (sets < MaximumSets && !work.rays.empty() &&
-    2 * work.rays.size() < static_cast<std::size_t>(strata_.size()));
+  } while (sets < MaximumSets && rays.size() > before &&
+    2 * (rays.size() - before) < static_cast<std::size_t>(strata_.size()));
   return sets * strata_.size();
 }
 }

@@ -19,7 +19,7 @@ class TexelPatch;
 struct TexelRay
 {
   Vec3f origin;    ///< local, relative to the particle's brick (see SphereSet)
-  Vec3d direction; ///< unit vector
+  Vec3f direction; ///< unit vector
 };
 
 /// Makes the rays of the Reference estimator: stratified jittered points of a texel, each paired
@@ -37,7 +37,6 @@ public:
     Overlaps overlaps;                  ///< of the particle at hand
     std::vector<BuriedCap> cuttingCaps; ///< caps whose rim crosses the texel at hand
     std::vector<std::uint32_t> pairing; ///< stratum of the direction for each of the texel
-    std::vector<TexelRay> rays;         ///< of the texel at hand
   };
 
   /// Both arguments must outlive this.
@@ -46,10 +45,11 @@ public:
   /// Finds what covers the particle; false if all of it is inside another one.
   [[nodiscard]] bool beginParticle(unsigned id, Workspace& work) const;
 
-  /// Fills work.rays with the rays of a texel of the particle that was begun.
+  /// Adds the rays of a texel of the particle that was begun.
   /// @return the number of sample points, those inside other particles included; 0 if the texel
   /// lies inside one other particle with all of its area
-  [[nodiscard]] int makeRays(unsigned id, int row, int column, Workspace& work) const;
+  [[nodiscard]] int makeRays(
+    unsigned id, int row, int column, Workspace& work, std::vector<TexelRay>& rays) const;
 
 private:
   /// What all texels of a row have in common.
@@ -60,7 +60,8 @@ private:
   };
 
   [[nodiscard]] bool isCovered(int row, int column, Workspace& work) const;
-  void addSet(unsigned id, const TexelPatch& patch, Random& random, Workspace& work) const;
+  void addSet(unsigned id, const TexelPatch& patch, Random& random, Workspace& work,
+    std::vector<TexelRay>& rays) const;
 
   const BakeScene& scene_;
   const BakeSettings& settings_;

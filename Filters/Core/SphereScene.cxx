@@ -52,6 +52,11 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
   }
 }
 
+void addFlag(RTCScene scene, RTCSceneFlags flag)
+{
+  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(rtcGetSceneFlags(scene) | flag));
+}
+
 struct MeshQuery
 {
   const Vec3f* vertices;
@@ -147,7 +152,7 @@ bool mayMeet(const Brick& brick, Vec3d origin, Vec3f direction, double distance)
 }
 }
 
-SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
+SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh, Queries queries)
   : device_(makeDevice(set.size() + mesh.triangles.size()))
   , set_(std::move(set))
   , hasMesh_(!mesh.triangles.empty())
@@ -156,7 +161,10 @@ SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh)
   for (const Brick& brick : set_.bricks())
   {
     scenes_.push_back(makeScene(device_.get()));
-    rtcSetSceneFlags(scenes_.back().get(), QueryFilterFlag);
+    if (queries == Queries::All)
+    {
+      addFlag(scenes_.back().get(), QueryFilterFlag);
+    }
     if (brick.count > 0)
     {
       addSpheres(scenes_.back().get(), brick);
@@ -205,7 +213,7 @@ void SphereScene::addTriangles(RTCScene scene, const OccluderMesh& mesh)
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene, geometry.get(), TriangleGeometry);
   // Of rays aimed at edges that triangles share, 5 % slip through without this, 0.1 % with it.
-  rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(QueryFilterFlag | RTC_SCENE_FLAG_ROBUST));
+  addFlag(scene, RTC_SCENE_FLAG_ROBUST);
 }
 
 bool SphereScene::occluded(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkDepthSilhouettePass.h"
 
+#include "DrawnProps.h"
 #include "ImageDepth.h"
 #include "Projection.h"
 #include "ShrunkCamera.h"
@@ -8,10 +9,8 @@
 #include "SilhouetteParametersOf.h"
 #include "SilhouetteRims.h"
 #include "TracedLayers.h"
-#include "vtkRayTracedSphereMapper.h"
 
 #include "vtkActor.h"
-#include "vtkActor2D.h"
 #include "vtkCamera.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -74,24 +73,6 @@ bool isTile(const vtkRenderState* state)
 /// Side of the largest frame that is drawn for samples within pixels; every OpenGL 3.2 draws it.
 constexpr int LargestFrame = 8192;
 
-/// Does a prop write depth?
-bool isDeep(vtkProp* prop)
-{
-  return prop->GetVisibility() && !vtkActor2D::SafeDownCast(prop) && prop->HasOpaqueGeometry();
-}
-
-/// Are ray-traced spheres all that writes depth?
-bool hasOnlySpheres(const std::vector<vtkProp*>& props)
-{
-  const auto isSpheres = [](vtkProp* prop)
-  {
-    auto* actor = vtkActor::SafeDownCast(prop);
-    return actor && vtkRayTracedSphereMapper::SafeDownCast(actor->GetMapper());
-  };
-  return std::all_of(
-    props.begin(), props.end(), [&](vtkProp* prop) { return !isDeep(prop) || isSpheres(prop); });
-}
-
 /// The largest number of samples up to `wanted` with which a frame can be drawn.
 int samplesThatFit(int wanted, int width, int height)
 {
@@ -137,73 +118,6 @@ void findNearest(const std::vector<float>& zBuffer, int width, int height, int s
   }
 }
 
-std::vector<vtkActor*> visibleActorsOf(const vtkRenderState* state)
-{
-  std::vector<vtkActor*> actors;
-  for (int i = 0; i < state->GetPropArrayCount(); ++i)
-  {
-    auto* actor = vtkActor::SafeDownCast(state->GetPropArray()[i]);
-    if (actor && actor->GetVisibility())
-    {
-      actors.push_back(actor);
-    }
-  }
-  return actors;
-}
-
-/// All ray-traced spheres in the frame buffer.
-std::vector<po::TracedActor> spheresOf(const vtkRenderState* state, int width, int height)
-{
-  std::vector<po::TracedActor> actors;
-  for (int i = 0; i < state->GetPropArrayCount(); ++i)
-  {
-    const po::TracedActor actor = po::tracedActorOf(state->GetPropArray()[i], width, height);
-    if (actor.renderer && actor.actor->GetVisibility())
-    {
-      actors.push_back(actor);
-    }
-  }
-  return actors;
-}
-
-/// The traced frames that make up all depth of the frame buffer; empty if anything else does.
-std::vector<po::TracedActor> tracedActorsOf(const vtkRenderState* state, int width, int height)
-{
-  const auto actors = spheresOf(state, width, height);
-  const auto deep = std::count_if(
-    state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount(), isDeep);
-  return deep == static_cast<std::ptrdiff_t>(actors.size()) ? actors
-                                                            : std::vector<po::TracedActor>{};
-}
-
-/// Forces translucent actors to be drawn as opaque ones while this object lives.
-class Opaque
-{
-public:
-  explicit Opaque(const std::vector<vtkSmartPointer<vtkActor>>& actors)
-  {
-    for (const auto& actor : actors)
-    {
-      if (!actor->GetForceOpaque())
-      {
-        actor->ForceOpaqueOn();
-        forced_.push_back(actor);
-      }
-    }
-  }
-  ~Opaque()
-  {
-    for (const auto& actor : forced_)
-    {
-      actor->ForceOpaqueOff();
-    }
-  }
-  Opaque(const Opaque&) = delete;
-  void operator=(const Opaque&) = delete;
-
-private:
-  std::vector<vtkSmartPointer<vtkActor>> forced_;
-};
 }
 
 struct vtkDepthSilhouettePass::Internals
@@ -299,7 +213,7 @@ std::string vtkDepthSilhouettePass::Prepare(const vtkRenderState* state)
 {
   const po::SilhouetteViewport viewport = viewportOf(state);
   // With several processes the frame buffer has what others have drawn too.
-  if (this->TileMargins && !tracedActorsOf(state, viewport.width, viewport.height).empty())
+  if (this->TileMargins && !po::tracedActorsOf(state, viewport.width, viewport.height).empty())
   {
     return this->FindInTracedFrames(state, 0);
   }
@@ -312,7 +226,7 @@ std::string vtkDepthSilhouettePass::FindInTracedFrames(const vtkRenderState* sta
 {
   Internals& self = *this->Internal;
   const po::SilhouetteViewport viewport = viewportOf(state);
-  const auto actors = tracedActorsOf(state, viewport.width, viewport.height);
+  const auto actors = po::tracedActorsOf(state, viewport.width, viewport.height);
   const po::SilhouetteScale& scale = self.scale(*po::scaleOf(po::actorsOf(actors)), !isTile(state));
   const po::SilhouetteRule rule = po::resolve(po::silhouetteParametersOf(*this), scale);
   const bool placed = !self.Actors.empty();
@@ -343,7 +257,7 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
     po::DepthImage<float>{ self.Distances.data(), viewport.width, viewport.height }, samples);
   po::SilhouetteParameters parameters = po::silhouetteParametersOf(*this);
   parameters.samples = samples;
-  const auto ofSpheres = po::scaleOf(visibleActorsOf(state));
+  const auto ofSpheres = po::scaleOf(po::visibleActorsOf(state));
   if (this->ThresholdUnit != 0 && !ofSpheres)
   {
     return "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
@@ -376,10 +290,10 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
   {
     props.assign(self.Actors.begin(), self.Actors.end());
   }
-  const Opaque opaque(self.Actors);
+  const po::OpaqueActors opaque(self.Actors);
   const po::ShrunkCamera shrunk(renderer->GetActiveCamera(),
     static_cast<double>(tile.width) / width, static_cast<double>(tile.height) / height);
-  const bool spheres = hasOnlySpheres(props);
+  const bool spheres = po::hasOnlySpheres(props);
   const int samples = spheres ? 1 : samplesThatFit(this->Samples, width, height);
 
   window->GetState()->PushFramebufferBindings();
@@ -392,7 +306,7 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
   inside.SetFrameBuffer(frame);
   // A delegate may draw all of the renderer's props, as ParaView's does.
   (self.Actors.empty() ? this->DelegatePass : self.ActorsPass.Get())->Render(&inside);
-  const bool traced = spheres && !tracedActorsOf(&inside, width, height).empty();
+  const bool traced = spheres && !po::tracedActorsOf(&inside, width, height).empty();
   std::string error = traced ? this->FindInTracedFrames(&inside, margin)
                              : this->FindInZBuffer(&inside, samples, margin);
   window->GetState()->PopFramebufferBindings();

@@ -46,6 +46,7 @@ public:
   vtkTypeMacro(vtkRayTracedSphereMapper, vtkPolyDataMapper);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  /// What gives a sphere its brightness.
   enum ShadingModes
   {
     DIRECT_LIGHT = 0,      ///< light and shadows, without baked occlusion

@@ -90,13 +90,15 @@ void forEachTexel(const Workload& work, const Function& f)
   const po::BakeSettings s = settings();
   const po::ReferenceRays rays(work.scene, s);
   po::ReferenceRays::Workspace memory;
+  std::vector<po::TexelRay> made;
   for (const unsigned id : work.baked)
   {
     const bool visible = rays.beginParticle(id, memory);
     for (int texel = 0; visible && texel < Resolution * Resolution; ++texel)
     {
-      (void)rays.makeRays(id, texel / Resolution, texel % Resolution, memory);
-      f(id, memory.rays);
+      made.clear();
+      (void)rays.makeRays(id, texel / Resolution, texel % Resolution, memory, made);
+      f(id, made);
     }
   }
 }
@@ -148,9 +150,8 @@ private:
   [[nodiscard]] static RTCRay query(const po::TexelRay& ray)
   {
     constexpr float Epsilon = 1e-3f;
-    const po::Vec3f direction = ray.direction.as<float>();
-    return { ray.origin.x, ray.origin.y, ray.origin.z, Epsilon, direction.x, direction.y,
-      direction.z, 0, std::numeric_limits<float>::infinity(), 0xFFFFFFFFu, 0, 0 };
+    return { ray.origin.x, ray.origin.y, ray.origin.z, Epsilon, ray.direction.x, ray.direction.y,
+      ray.direction.z, 0, std::numeric_limits<float>::infinity(), 0xFFFFFFFFu, 0, 0 };
   }
 
   [[nodiscard]] bool isOccluded(RTCRay ray) const
@@ -164,7 +165,7 @@ private:
   [[nodiscard]] static bool bakeSeesHit(const Workload& work, unsigned id, const po::TexelRay& ray)
   {
     return work.scene.rays.occluded(
-      ray.origin, ray.direction.as<float>(), std::numeric_limits<float>::infinity(), id);
+      ray.origin, ray.direction, std::numeric_limits<float>::infinity(), id);
   }
 
   po::DeviceHandle device_;

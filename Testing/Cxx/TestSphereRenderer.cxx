@@ -226,6 +226,12 @@ TEST(SphereRenderer, WhatHasChangedIsDoneAgain)
   const SphereCloud cloud = randomCloud(300);
   const std::vector<std::int32_t> rows(300, 0);
   const std::vector<float> halves(1, 0.5f), quarters(1, 0.25f);
+  std::vector<std::uint8_t> colors(4 * 300, 200);
+  for (std::size_t i = 3; i < colors.size(); i += 8)
+  {
+    colors[i] = 255;
+    colors[i + 4] = 0;
+  }
   Camera camera = view();
   Matrix4 placement = Identity;
   Style style = directLight();
@@ -235,7 +241,8 @@ TEST(SphereRenderer, WhatHasChangedIsDoneAgain)
   style.shadows = true;
   style.textures = OcclusionTextures(1, halves.data(), rows.data(), nullptr);
   const std::pair<const char*, std::function<void()>> changes[] = {
-    { "camera", [&] { camera = lookAtOrigin(true, 30, 9, 120, 90, 1, 100); } },
+    { "place of the eye", [&] { camera.worldToEye = translation(0.5, 0, -30); } },
+    { "angle of view", [&] { camera = lookAtOrigin(true, 30, 9, 120, 90, 1, 100); } },
     { "size of the window", [&] { camera = lookAtOrigin(true, 30, 9, 90, 90, 1, 100); } },
     { "placement", [&] { placement = translation(1, 0, 0); } },
     { "direction of the light",
@@ -243,6 +250,7 @@ TEST(SphereRenderer, WhatHasChangedIsDoneAgain)
         style.lights[0].direction = { 0, 0, -1 };
       } },
     { "kind of the light", [&] { style.lights[0].positional = true; } },
+    { "narrow cone", [&] { style.lights[0].coneAngle = 20; } },
     { "position of the light",
       [&] {
         style.lights[0].position = { 0, 3, 9 };
@@ -251,7 +259,7 @@ TEST(SphereRenderer, WhatHasChangedIsDoneAgain)
       [&] {
         style.lights[0].attenuation = { 5, 0, 0 };
       } },
-    { "cone", [&] { style.lights[0].coneAngle = 20; } },
+    { "wider cone", [&] { style.lights[0].coneAngle = 50; } },
     { "colour of the light",
       [&] {
         style.lights[0].color = { 1, 0, 0 };
@@ -267,7 +275,23 @@ TEST(SphereRenderer, WhatHasChangedIsDoneAgain)
       [&] {
         style.material.diffuseColor = { 0, 1, 0 };
       } },
-    { "opacity", [&] { style.material.opacity = 0.8; } },
+    { "more opacity", [&] { style.material.opacity = 0.9; } },
+    { "less opacity", [&] { style.material.opacity = 0.3; } },
+    { "opaque and clear particles",
+      [&]
+      {
+        style.material.particleColors = colors.data();
+        ++style.material.colorsVersion;
+      } },
+    { "clear and opaque particles",
+      [&]
+      {
+        for (std::size_t i = 3; i < colors.size(); i += 4)
+        {
+          colors[i] = static_cast<std::uint8_t>(255 - colors[i]);
+        }
+        ++style.material.colorsVersion;
+      } },
     { "number of layers", [&] { style.maximumLayers = 2; } },
     { "shadows", [&] { style.shadows = false; } },
   };

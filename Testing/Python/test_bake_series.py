@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Data/bake_series.py: texture files beside the steps, what is there is skipped, failures are told.
+"""Data/Examples/bake_series.py: texture files beside the steps, what is there is skipped, failures are told.
 
 Usage: pvpython test_bake_series.py PVBATCH
 """
@@ -36,7 +36,7 @@ class Series(unittest.TestCase):
     def bake_series(self, *arguments):
         settings = [f"{name}={value}" for name, value in SETTINGS.items()]
         return subprocess.run(
-            [PVBATCH, os.path.join(DATA, "bake_series.py"), *arguments, "--set", *settings],
+            [PVBATCH, os.path.join(DATA, "Examples", "bake_series.py"), *arguments, "--set", *settings],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=250)
 
     def table(self, source):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bakes a time series: each step's textures are written beside its data, step.vtp -> step.occlusion.exr.
 
-    pvbatch Data/bake_series.py [options] step_*.vtp
+    pvbatch Data/Examples/bake_series.py [options] step_*.vtp
 
 Steps that have a texture file newer than their data are skipped: what was interrupted goes on where it was.
 A step that fails is reported and the others go on; the script then ends with code 1. One process: several
@@ -11,14 +11,13 @@ can each take a part of the files. A file that holds several times gets one text
 Occlusion" with the same parameters, "Use Cache" and that folder finds each step there.
 """
 import argparse
-import glob
 import os
 import sys
 import time
 
 from paraview.simple import *
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import plugin
 
 
 def parse(arguments):
@@ -31,14 +30,6 @@ def parse(arguments):
     parser.add_argument("--set", nargs="*", default=[], metavar="PROPERTY=VALUE",
                         help="properties of Sphere Ambient Occlusion, such as TextureResolution=8 Method=Embree")
     return parser.parse_args(arguments)
-
-
-def load_plugin():
-    built = glob.glob(os.path.join(ROOT, "build", "lib*", "**", "ParticleOcclusion.so"), recursive=True)
-    plugin = os.environ.get("PARTICLEOCCLUSION_PLUGIN") or (built and built[0])
-    if not plugin:
-        raise SystemExit("The plugin is not built: see README.md.")
-    LoadPlugin(plugin, ns=globals())
 
 
 def properties(options):
@@ -119,7 +110,7 @@ def bake_file(path, options, chosen, report):
 
 def main(arguments):
     options = parse(arguments)
-    load_plugin()
+    plugin.load(globals())
     chosen = properties(options)
     start = time.time()
     failures = 0

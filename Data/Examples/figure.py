@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A figure for a paper: a picture in 4K and the layers it is made of, for compositing.
+
+    pvpython figure.py particles.vtp figure --color speed
+
+writes figure.png and figure.exr: RGBA, depth Z, ambient occlusion AO, normal N and particle id of every pixel, in
+floats (OpenEXR; Nuke, Blender, GIMP and the Python packages OpenEXR and imageio read it).
+"""
+import argparse
+import os
+
+from paraview.simple import *
+
+import plugin
+
+plugin.load(globals())
+
+
+def make_view(size):
+    view = CreateRenderView()
+    view.ViewSize = [1200, 1200 * size[1] // size[0]]  # letters are as large as in a window of this size
+    view.OrientationAxesVisibility = 0
+    view.UseColorPaletteForBackground = 0
+    view.BackgroundColorMode = "Single Color"
+    view.Background = [1, 1, 1]
+    view.UseFXAA = 0  # it would blur edges and lines, which are smooth already
+    return view
+
+
+def show(baked, view, color):
+    display = Show(baked, view)
+    display.SetRepresentationType("Ray-Traced Spheres")
+    display.OcclusionOnDiffuse = 0  # occlusion darkens the ambient light alone, as that of an overcast sky
+    display.Ambient, display.Diffuse = 0.7, 0.4
+    display.SamplesPerPixel = 16
+    display.SilhouetteVisibility = 1
+    if color:
+        ColorBy(display, ("POINTS", color))
+        bar = GetScalarBar(GetColorTransferFunction(color), view)
+        bar.TitleColor = bar.LabelColor = [0, 0, 0]
+        display.SetScalarBarVisibility(view, True)
+    else:
+        display.ColorArrayName = ["POINTS", ""]
+    return display
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("input", help="particles in any format that ParaView reads as points")
+    parser.add_argument("output", help="name of the results without .png and .exr")
+    parser.add_argument("--color", help="point array of the colours")
+    parser.add_argument("--size", nargs=2, type=int, default=[3840, 2160], metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--error", type=float, default=0.01, help="RMS error of the occlusion [%(default)s]")
+    options = parser.parse_args()
+
+    particles = OpenDataFile(os.path.abspath(options.input))
+    baked = SphereAmbientOcclusion(Input=particles, TextureResolution=32, TargetError=options.error)
+    view = make_view(options.size)
+    display = show(baked, view, options.color)
+    ResetCamera(view)
+    view.GetActiveCamera().Elevation(30)
+    view.GetActiveCamera().Azimuth(20)
+    ResetCamera(view)
+    view.GetActiveCamera().Zoom(1.4)
+    SaveScreenshot(options.output + ".png", view, ImageResolution=options.size)
+    display.LayersFile = os.path.abspath(options.output + ".exr")
+    display.LayersResolution = options.size
+    display.SMProxy.InvokeCommand("WriteLayers")
+
+
+main()

@@ -1,0 +1,8 @@
+# Read by CPack for each kind of package.
+if (CPACK_GENERATOR STREQUAL "DEB")
+  list(APPEND CPACK_COMPONENTS_ALL autoload)
+  set(CPACK_PACKAGING_INSTALL_PREFIX "/usr")
+else ()
+  set(CPACK_COMPONENT_INCLUDE_TOPLEVEL_DIRECTORY ON)
+  set(CPACK_PACKAGING_INSTALL_PREFIX "/")
+endif ()

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The example scripts on shipped data, at small sizes: what they write and what they say is wrong.
+
+Usage: pvpython test_examples.py PVPYTHON PYTHON MPIEXEC PYTHON_PACKAGES
+"""
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+
+import images
+import servers
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+PVPYTHON, PYTHON, MPIEXEC, PACKAGES = sys.argv[1:5]
+DATA = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Data"))
+BULLET, HEAP, MOLECULE = (os.path.join(DATA, name + ".vtp") for name in ("bullet_1000", "heap", "molecule"))
+
+
+def script(name):
+    return os.path.join(DATA, "Examples", name)
+
+
+def run(*command, code=0):
+    """Runs a command; returns what it printed and what it complained of."""
+    environment = dict(servers.mpi_environment(), PYTHONPATH=PACKAGES)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=200, env=environment, check=False)
+    if done.returncode != code or (code == 0 and ("Traceback" in done.stderr or "ERR|" in done.stderr)):
+        raise SystemExit(f"{command} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
+    return done.stdout, done.stderr
+
+
+def check_movie(folder):
+    frames = os.path.join(folder, "frames.png")
+    run(PVPYTHON, script("movie.py"), "--output", frames, "--size", "160", "90", "--samples", "4", "--steps", "2")
+    first, last = (images.read(os.path.join(folder, f"frames.000{i}.png")) for i in range(2))
+    assert first.shape == (90, 160, 3) and abs(first - last).mean() > 1, "nothing moves"
+    movie = os.path.join(folder, "movie.avi")
+    run(PVPYTHON, script("movie.py"), "--output", movie, "--size", "160", "90", "--samples", "4", HEAP, HEAP)
+    assert os.path.getsize(movie) > 1000
+
+
+def check_figure(folder):
+    name = os.path.join(folder, "figure")
+    run(PVPYTHON, script("figure.py"), HEAP, name, "--color", "speed", "--size", "320", "180", "--error", "0.05")
+    assert images.read(name + ".png").shape == (180, 320, 3)
+    with open(name + ".exr", "rb") as file:
+        head = file.read(1000)
+    for layer in (b"AO\0", b"Z\0", b"N.X\0"):
+        assert layer in head, f"{layer} is not in figure.exr"
+
+
+def check_batch(folder):
+    """Two processes share three files and one that cannot be read."""
+    missing = os.path.join(folder, "broken.vtp")
+    with open(missing, "w", encoding="utf-8") as file:
+        file.write("no particles")
+    out = os.path.join(folder, "baked")
+    printed, _ = run(MPIEXEC, "-n", "2", PYTHON, script("batch.py"), "--output", out, "--samples", "4",
+                     BULLET, HEAP, MOLECULE, missing, code=1)
+    for name, count in (("bullet_1000", 25710), ("heap", 6075), ("molecule", 3341)):
+        assert f"{name}.vtp\t{count:,}\t" in printed, printed
+        reader = vtkXMLPolyDataReader()
+        reader.SetFileName(os.path.join(out, name + ".vtp"))
+        reader.Update()
+        assert reader.GetOutput().GetNumberOfPoints() == count
+        assert reader.GetOutput().GetFieldData().GetAbstractArray("AmbientOcclusionTextures")
+    assert "broken.vtp\tfailed" in printed, printed
+    assert not os.path.exists(os.path.join(out, "broken.vtp"))
+
+
+def check_statistics(folder):
+    table = os.path.join(folder, "table.csv")
+    run(PVPYTHON, script("material_statistics.py"), BULLET, "--by", "damage", "--bins", "4", "--samples", "4",
+        "--csv", table)
+    with open(table, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 4 and sum(int(row["particles"]) for row in rows) == 25710, rows
+    assert all(0 <= float(row["5 %"]) <= float(row["median"]) <= float(row["95 %"]) <= 1 for row in rows), rows
+    _, complaint = run(PVPYTHON, script("material_statistics.py"), BULLET, "--by", "colour", code=1)
+    assert "There is no point array colour" in complaint and "damage" in complaint, complaint
+
+
+def check_plain_vtk(folder):
+    """The picture of the same program in C++."""
+    picture = os.path.join(folder, "plain-vtk.png")
+    run(PYTHON, script("plain_vtk.py"), MOLECULE, picture)
+    images.compare(picture, "plain-vtk.png")
+
+
+with tempfile.TemporaryDirectory() as work:
+    for check in (check_movie, check_figure, check_batch, check_statistics, check_plain_vtk):
+        check(work)
