@@ -58,7 +58,7 @@ def grab(folder, width, height):
             until = time.time() + 120
             while not os.path.exists(note) and time.time() < until:
                 time.sleep(1)
-            time.sleep(5)  # the panel is built after the script
+            time.sleep(20)  # the panel is built after the script, and the view drawn in full
             return ImageGrab.grab(xdisplay=":97")
         finally:
             window.kill()
@@ -76,7 +76,7 @@ def save(picture, name):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        save(grab(folder, 1280, 800), "window.png")
+        save(grab(folder, 1280, 960), "window.png")
 
 
 main()

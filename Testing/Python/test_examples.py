@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The example scripts on shipped data, at small sizes: what they write and what they say is wrong.
+"""The example scripts on shipped data, at small sizes: what they write and what they say is wrong; and what help() says.
 
 Usage: pvpython test_examples.py PVPYTHON PYTHON MPIEXEC PYTHON_PACKAGES
 """
@@ -11,6 +11,7 @@ import tempfile
 
 import images
 import servers
+from paraview import servermanager, simple
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 PVPYTHON, PYTHON, MPIEXEC, PACKAGES = sys.argv[1:5]
@@ -89,6 +90,17 @@ def check_plain_vtk(folder):
     images.compare(picture, "plain-vtk.png")
 
 
+def check_help(_):
+    """help() of what the plugin's functions return describes the filter and every property of it."""
+    simple.LoadPlugin(os.environ["PARTICLEOCCLUSION_PLUGIN"])
+    for name, least in (("SphereAmbientOcclusion", 20), ("DepthSilhouettes", 10), ("LoadOcclusionTexturesEXR", 2)):
+        proxy = getattr(servermanager.filters, name)
+        help_of = {key: value.__doc__ for key, value in vars(proxy).items() if isinstance(value, property)}
+        assert len(help_of) >= least and len(proxy.__doc__) > 50, (name, list(help_of), proxy.__doc__)
+        silent = [key for key, text in help_of.items() if not (text or "").strip()]
+        assert not silent, f"{name} says nothing of {silent}"
+
+
 with tempfile.TemporaryDirectory() as work:
-    for check in (check_movie, check_figure, check_batch, check_statistics, check_plain_vtk):
+    for check in (check_help, check_movie, check_figure, check_batch, check_statistics, check_plain_vtk):
         check(work)
