@@ -16,7 +16,7 @@ namespace po
 {
 namespace
 {
-const std::string FormatLine = "ParticleOcclusion bake 1\n";
+const std::string FormatLine = "ParticleOcclusion bake 2\n";
 constexpr std::size_t DigestCharacters = 32;
 
 /// The format, the key and the digest of the rest, a line each.
@@ -46,6 +46,17 @@ public:
     const std::uint64_t count = elements.size();
     bytes(&count, sizeof(count));
     bytes(elements.data(), elements.size() * sizeof(Element));
+  }
+
+  template <typename Element>
+  void arrays(const std::vector<std::vector<Element>>& list)
+  {
+    const std::uint64_t count = list.size();
+    bytes(&count, sizeof(count));
+    for (const std::vector<Element>& elements : list)
+    {
+      array(elements);
+    }
   }
 
   [[nodiscard]] std::string digest() { return digest_.text(); }
@@ -90,6 +101,19 @@ public:
     bytes(elements.data(), elements.size() * sizeof(Element));
   }
 
+  template <typename Element>
+  void arrays(std::vector<std::vector<Element>>& list)
+  {
+    std::uint64_t count = 0;
+    bytes(&count, sizeof(count));
+    require(count); // an array takes more than a byte
+    list.resize(static_cast<std::size_t>(count));
+    for (std::vector<Element>& elements : list)
+    {
+      array(elements);
+    }
+  }
+
   [[nodiscard]] std::string digest() { return digest_.text(); }
 
 private:
@@ -127,13 +151,25 @@ void visitCounters(Archive& archive, Counters& counters)
     threads);
 }
 
+template <typename Archive, typename Format>
+void visitFormat(Archive& archive, Format& format)
+{
+  auto& [resolution, maximum, basis, classBits] = format;
+  auto& [basisResolution, scale, numbers] = basis;
+  visitNumbers(archive, resolution, maximum, basisResolution, scale);
+  archive.array(numbers);
+  archive.arrays(classBits);
+}
+
 template <typename Archive, typename Table>
 void visitTable(Archive& archive, Table& table)
 {
-  auto& [encoding, resolution, rows, maximum, bytes, floats] = table;
-  visitNumbers(archive, encoding, resolution, rows, maximum);
+  auto& [storage, encoding, resolution, rows, textures, maximum, bytes, floats, packed,
+    difference] = table;
+  visitNumbers(archive, storage, encoding, resolution, rows, textures, maximum, difference);
   archive.array(bytes);
   archive.array(floats);
+  visitFormat(archive, packed);
 }
 
 template <typename Archive, typename Result, typename Report>
@@ -145,10 +181,11 @@ void visitEntry(Archive& archive, Result& result, Report& report)
   archive.array(rowOf);
   archive.array(mean);
   // The numbers of the input are known without a bake.
-  auto& [counters, method, directions, samplesUsed, estimatedError, maximum, refined, leftOut,
-    textureBytes, occluderSpheres, occluderTriangles, loaded] = report;
+  auto& [counters, method, directions, samplesUsed, estimatedError, storageDifference, maximum,
+    refined, leftOut, textureBytes, occluderSpheres, occluderTriangles, loaded] = report;
   visitCounters(archive, counters);
-  visitNumbers(archive, method, directions, samplesUsed, estimatedError, maximum, refined);
+  visitNumbers(
+    archive, method, directions, samplesUsed, estimatedError, storageDifference, maximum, refined);
 }
 
 std::string readHead(std::istream& stream, const std::string& key)
@@ -192,8 +229,7 @@ void readChecked(const std::string& fileName, const std::string& key, std::size_
 
 double bytesOfEntry(const BakeResult& result)
 {
-  return static_cast<double>(result.table.bytes.size()) +
-    static_cast<double>(sizeof(float)) * static_cast<double>(result.table.floats.size()) +
+  return static_cast<double>(result.table.size()) +
     static_cast<double>(sizeof(std::int32_t) + sizeof(float)) *
     static_cast<double>(result.rowOf.size());
 }

@@ -12,7 +12,7 @@ namespace po
 namespace
 {
 /// To be raised whenever a bake of the same task gives other bits, or entries another layout.
-constexpr std::uint32_t ResultVersion = 1;
+constexpr std::uint32_t ResultVersion = 2;
 
 template <typename Number>
 void addNumber(Digest& digest, Number number)
@@ -51,13 +51,15 @@ void add(Digest& digest, const ImageBackground& image)
 void add(Digest& digest, const BakeSettings& settings)
 {
   const auto& [textureResolution, samplesPerTexel, maximumDistance, dilateInside, insideThreshold,
-    encoding, seed, background] = settings;
+    encoding, storage, storageError, seed, background] = settings;
   addNumber(digest, textureResolution);
   addNumber(digest, samplesPerTexel);
   addNumber(digest, maximumDistance);
   addNumber(digest, dilateInside);
   addNumber(digest, insideThreshold);
   addNumber(digest, encoding);
+  addNumber(digest, storage);
+  addNumber(digest, storageError);
   addNumber(digest, seed);
   addNumber(digest, background.index());
   std::visit([&](const auto& light) { add(digest, light); }, background);

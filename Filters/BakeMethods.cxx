@@ -109,6 +109,7 @@ private:
     report_.samplesUsed = task_.settings.samplesPerTexel;
     report_.estimatedError =
       errorIsOfAll ? error : errorOfAll(error, task_.receivers.size(), group_);
+    report_.storageDifference = errorOfAll(result.table.difference, task_.receivers.size(), group_);
     report_.maximum = result.table.maximum;
   }
 

@@ -19,7 +19,8 @@ struct BakeReport
   int directions = 0;
   int samplesUsed = 0;
   double estimatedError = 0;
-  double maximum = 0; ///< scale of the encoded table
+  double storageDifference = 0; ///< RMS of what storing has changed
+  double maximum = 0;           ///< scale of the encoded table
   std::size_t refined = 0;
   std::size_t leftOut = 0;
   std::size_t textureBytes = 0;

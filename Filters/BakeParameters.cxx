@@ -18,6 +18,8 @@ constexpr int ContractVersion = 1;
 constexpr const char* MethodNames[] = { "Automatic", "Sweep", "Embree", "Reference" };
 constexpr const char* BackgroundNames[] = { "Uniform", "Gradient", "Image" };
 constexpr const char* EncodingNames[] = { UInt8Gamma2, Float32Linear };
+constexpr const char* StorageNames[] = { FullStorage, VariableSizeStorage, CompressedStorage,
+  OneValueStorage };
 
 std::string textOf(const char* text)
 {
@@ -108,6 +110,21 @@ void describeBackground(vtkSphereAmbientOcclusion& filter, OcclusionParameters& 
     parameters.set("backgroundImage", textOf(filter.GetBackgroundImage()));
   }
 }
+
+Storage storageOf(vtkSphereAmbientOcclusion& filter)
+{
+  using Filter = vtkSphereAmbientOcclusion;
+  requireRange<int>("Storage", filter.GetStorage(), Filter::Full, Filter::OneValue);
+  requireRange("StorageError", filter.GetStorageError(), 0.0, 1.0);
+  const bool packed =
+    filter.GetStorage() == Filter::VariableSize || filter.GetStorage() == Filter::Compressed;
+  if (packed && filter.GetEncoding() == Filter::Float32Linear)
+  {
+    throw std::invalid_argument(std::string("The Storage ") + StorageNames[filter.GetStorage()] +
+      " needs the Encoding UInt8Gamma2; choose that, or the Storage Full.");
+  }
+  return static_cast<Storage>(filter.GetStorage());
+}
 }
 
 BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter)
@@ -130,6 +147,8 @@ BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter)
   settings.dilateInside = filter.GetDilateInside();
   settings.insideThreshold = filter.GetInsideThreshold();
   settings.encoding = static_cast<Encoding>(filter.GetEncoding());
+  settings.storage = storageOf(filter);
+  settings.storageError = filter.GetStorageError();
   settings.seed = static_cast<std::uint64_t>(filter.GetSeed());
   settings.background = backgroundOf(filter);
   return settings;
@@ -162,12 +181,17 @@ OcclusionParameters describeBake(
   OcclusionParameters parameters;
   parameters.set("version", ContractVersion);
   parameters.set("method", nameOfMethod(report.method));
-  parameters.set("resolution", settings.textureResolution);
+  const bool oneValue = settings.storage == Storage::OneValue;
+  parameters.set("resolution", oneValue ? 1 : settings.textureResolution);
   parameters.set("samplesPerTexel", report.samplesUsed);
   parameters.set("seed", filter.GetSeed());
   parameters.set("encoding", EncodingNames[filter.GetEncoding()]);
   parameters.set("gamma", settings.encoding == Encoding::UInt8Gamma2 ? 2.0 : 1.0);
   parameters.set("maximum", report.maximum);
+  parameters.set("storage", StorageNames[filter.GetStorage()]);
+  parameters.set("storageError", settings.storageError);
+  parameters.set("storageDifference", report.storageDifference);
+  parameters.set("bakedResolution", settings.textureResolution);
   parameters.set("insideThreshold", settings.insideThreshold);
   parameters.set("dilateInside", settings.dilateInside);
   parameters.set("maximumDistance", settings.maximumDistance);

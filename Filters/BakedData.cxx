@@ -2,6 +2,7 @@
 #include "BakedData.h"
 
 #include "Blocks.h"
+#include "PackedArrays.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkFieldData.h"
@@ -69,12 +70,19 @@ PointResults scatter(const SphereCloud& cloud, const BakeResult& result, std::si
   return all;
 }
 
-/// The rows of the table that a block uses, numbered in the order of their first use.
-class RowSelection
+/// The textures of a table that a block uses, one after the other in the order of their first use.
+class TextureSelection
 {
 public:
-  explicit RowSelection(std::int32_t rows)
-    : newRow_(static_cast<std::size_t>(rows), -1)
+  /// Tuples of the table that belong together.
+  struct Span
+  {
+    std::size_t first, count;
+  };
+
+  explicit TextureSelection(const EncodedTable& table)
+    : table_(table)
+    , newRow_(static_cast<std::size_t>(table.rows), -1)
   {
   }
 
@@ -87,43 +95,46 @@ public:
     std::int32_t& target = newRow_[static_cast<std::size_t>(row)];
     if (target < 0)
     {
-      target = static_cast<std::int32_t>(used_.size());
-      used_.push_back(row);
+      target = static_cast<std::int32_t>(tuples_);
+      spans_.push_back({ static_cast<std::size_t>(row), table_.tuplesAt(row) });
+      tuples_ += spans_.back().count;
     }
     return target;
   }
 
-  [[nodiscard]] const std::vector<std::int32_t>& used() const { return used_; }
+  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+  [[nodiscard]] std::size_t tuples() const { return tuples_; }
 
 private:
+  const EncodedTable& table_;
   std::vector<std::int32_t> newRow_;
-  std::vector<std::int32_t> used_;
+  std::vector<Span> spans_;
+  std::size_t tuples_ = 0;
 };
 
 template <typename Array, typename Value>
-vtkSmartPointer<vtkDataArray> copyRows(
-  const std::vector<Value>& values, std::size_t texels, const std::vector<std::int32_t>& rows)
+vtkSmartPointer<vtkDataArray> copyTextures(
+  const std::vector<Value>& values, std::size_t width, const TextureSelection& selection)
 {
   auto array = vtkSmartPointer<Array>::New();
   array->SetName(TextureTableArray);
-  array->SetNumberOfComponents(static_cast<int>(texels));
-  array->SetNumberOfTuples(static_cast<vtkIdType>(rows.size()));
+  array->SetNumberOfComponents(static_cast<int>(width));
+  array->SetNumberOfTuples(static_cast<vtkIdType>(selection.tuples()));
   Value* target = array->GetPointer(0);
-  for (const std::int32_t row : rows)
+  for (const auto& [first, count] : selection.spans())
   {
-    target = std::copy_n(values.data() + static_cast<std::size_t>(row) * texels, texels, target);
+    target = std::copy_n(values.data() + first * width, count * width, target);
   }
   return array;
 }
 
 vtkSmartPointer<vtkDataArray> copyTable(
-  const EncodedTable& table, const std::vector<std::int32_t>& rows)
+  const EncodedTable& table, const TextureSelection& selection)
 {
-  const std::size_t texels =
-    static_cast<std::size_t>(table.resolution) * static_cast<std::size_t>(table.resolution);
+  const std::size_t width = table.valuesPerTuple();
   return table.encoding == Encoding::UInt8Gamma2
-    ? copyRows<vtkUnsignedCharArray>(table.bytes, texels, rows)
-    : copyRows<vtkFloatArray>(table.floats, texels, rows);
+    ? copyTextures<vtkUnsignedCharArray>(table.bytes, width, selection)
+    : copyTextures<vtkFloatArray>(table.floats, width, selection);
 }
 
 void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offset,
@@ -135,7 +146,7 @@ void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offs
   mean->SetNumberOfTuples(points);
   std::copy_n(all.mean.data() + offset, points, mean->GetPointer(0));
 
-  RowSelection selection(result.table.rows);
+  TextureSelection selection(result.table);
   vtkNew<vtkIntArray> index;
   index->SetName(TextureIndexArray);
   index->SetNumberOfTuples(points);
@@ -144,7 +155,12 @@ void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offs
 
   block->GetPointData()->AddArray(mean);
   block->GetPointData()->AddArray(index);
-  block->GetFieldData()->AddArray(copyTable(result.table, selection.used()));
+  block->GetFieldData()->AddArray(copyTable(result.table, selection));
+  block->GetFieldData()->RemoveArray(TextureBasisArray); // of an earlier bake
+  if (const auto basis = basisArrayOf(result.table.packed))
+  {
+    block->GetFieldData()->AddArray(basis);
+  }
   parameters.toFieldData(block->GetFieldData());
 }
 }
@@ -188,10 +204,12 @@ void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& clou
     points += static_cast<std::size_t>(block->GetNumberOfPoints());
   }
   const PointResults all = scatter(cloud, result, points);
+  OcclusionParameters described = parameters;
+  describeFormat(result.table.packed, described);
   std::size_t offset = 0;
   for (vtkPointSet* block : blocks)
   {
-    attachToBlock(block, all, offset, result, parameters);
+    attachToBlock(block, all, offset, result, described);
     offset += static_cast<std::size_t>(block->GetNumberOfPoints());
   }
 }

@@ -4,6 +4,7 @@
 #include "Blocks.h"
 #include "Gamma2.h"
 #include "OcclusionParameters.h"
+#include "PackedArrays.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkDataArrayRange.h"
@@ -21,6 +22,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <unordered_map>
 
 namespace po
 {
@@ -32,17 +34,41 @@ struct TableFormat
   int resolution = 0;
   bool bytes = false;
   double maximum = 1;
+  std::optional<PackedFormat> packed; ///< of textures of different lengths
 };
 
 bool operator==(const TableFormat& a, const TableFormat& b)
 {
-  return a.resolution == b.resolution && a.bytes == b.bytes && (!a.bytes || a.maximum == b.maximum);
+  return a.resolution == b.resolution && a.bytes == b.bytes &&
+    (!a.bytes || a.maximum == b.maximum) && a.packed == b.packed;
 }
 
 [[noreturn]] void fail(const std::string& array, const std::string& what)
 {
   throw std::runtime_error("The array '" + array + "' " + what +
     "; spheres are drawn without ambient occlusion. Bake again with Sphere Ambient Occlusion.");
+}
+
+/// The format of textures of different lengths, or nothing.
+std::optional<PackedFormat> readPacked(const OcclusionParameters& parameters, vtkFieldData* fields)
+{
+  const std::string storage = parameters.has("storage") ? parameters.get("storage") : FullStorage;
+  if (storage == FullStorage || storage == OneValueStorage)
+  {
+    return {};
+  }
+  if (storage != VariableSizeStorage && storage != CompressedStorage)
+  {
+    fail(ParametersArray, "names a storage that is not known ('" + storage + "')");
+  }
+  try
+  {
+    return packedFormatOf(parameters, fields);
+  }
+  catch (const std::exception& error)
+  {
+    fail(ParametersArray, std::string("does not describe the textures: ") + error.what());
+  }
 }
 
 TableFormat readFormat(vtkFieldData* fields)
@@ -68,6 +94,11 @@ TableFormat readFormat(vtkFieldData* fields)
     {
       fail(ParametersArray, "has a maximum that is negative or not finite");
     }
+  }
+  format.packed = readPacked(parameters, fields);
+  if (format.packed && !format.bytes)
+  {
+    fail(ParametersArray, "names an encoding in which textures have one length");
   }
   return format;
 }
@@ -110,6 +141,15 @@ void checkTable(vtkDataArray* table, const TableFormat& format)
   {
     fail(TextureTableArray, "is not of the type that its encoding asks for");
   }
+  if (format.packed)
+  {
+    if (table->GetNumberOfComponents() != PackedFormat::WordBytes)
+    {
+      fail(TextureTableArray,
+        "has " + std::to_string(table->GetNumberOfComponents()) + " components, not 4");
+    }
+    return;
+  }
   const int texels = format.resolution * format.resolution;
   if (table->GetNumberOfComponents() != texels)
   {
@@ -128,6 +168,18 @@ void checkRows(vtkDataArray* rows, vtkIdType textures)
     fail(TextureIndexArray,
       "refers to texture " + std::to_string(*largest) + " of a table with " +
         std::to_string(textures) + " textures");
+  }
+}
+
+void checkBeginnings(vtkDataArray* rows, const PackedTextures& packed)
+{
+  for (const int row : vtk::DataArrayValueRange<1>(vtkIntArray::SafeDownCast(rows)))
+  {
+    if (row >= 0 && packed.lengthAt(static_cast<std::size_t>(row)) == 0)
+    {
+      fail(
+        TextureIndexArray, "refers to word " + std::to_string(row) + ", where no texture begins");
+    }
   }
 }
 
@@ -158,6 +210,13 @@ BakedTextures readArrays(vtkPointSet& points, TableFormat& format)
   baked.rows = as<vtkIntArray>(rows);
   checkRows(baked.rows, table->GetNumberOfTuples());
   baked.table = table;
+  if (format.packed)
+  {
+    baked.packed = std::make_shared<PackedTextures>(*format.packed,
+      static_cast<const std::uint8_t*>(table->GetVoidPointer(0)),
+      static_cast<std::size_t>(table->GetNumberOfTuples()));
+    checkBeginnings(baked.rows, *baked.packed);
+  }
   return baked;
 }
 
@@ -170,6 +229,10 @@ OcclusionTextures makeTextures(const BakedTextures& baked, const TableFormat& fo
     return OcclusionTextures(means);
   }
   const auto* rows = static_cast<const std::int32_t*>(baked.rows->GetVoidPointer(0));
+  if (baked.packed)
+  {
+    return OcclusionTextures(baked.packed, format.resolution, rows, means);
+  }
   const void* texels = baked.table->GetVoidPointer(0);
   return format.bytes
     ? OcclusionTextures(
@@ -209,6 +272,37 @@ vtkSmartPointer<vtkDataArray> decodedTable(const Part& part)
   return decoded;
 }
 
+/// Textures of different lengths at T x T texels; the part's rows follow.
+vtkSmartPointer<vtkDataArray> expandedTable(Part& part)
+{
+  const ExpandedRows expanded = expandRows(part.baked);
+  auto table = vtkSmartPointer<vtkFloatArray>::New();
+  const int texels = part.format.resolution * part.format.resolution;
+  table->SetNumberOfComponents(texels);
+  table->SetNumberOfTuples(static_cast<vtkIdType>(expanded.firsts.size()));
+  for (std::size_t row = 0; row < expanded.firsts.size(); ++row)
+  {
+    part.baked.packed->decode(
+      expanded.firsts[row], table->GetPointer(static_cast<vtkIdType>(row) * texels));
+  }
+  vtkNew<vtkIntArray> rows;
+  rows->SetNumberOfTuples(part.points);
+  std::copy(expanded.rows.begin(), expanded.rows.end(), rows->GetPointer(0));
+  part.baked.rows = rows;
+  return table;
+}
+
+/// The same particles with a table of floats.
+void decode(Part& part)
+{
+  if (!part.baked.table)
+  {
+    return;
+  }
+  part.baked.table = part.baked.packed ? expandedTable(part) : decodedTable(part);
+  part.baked.packed.reset();
+}
+
 bool sameFormat(const std::vector<Part>& parts, const TableFormat& format)
 {
   return std::all_of(parts.begin(), parts.end(),
@@ -216,8 +310,7 @@ bool sameFormat(const std::vector<Part>& parts, const TableFormat& format)
 }
 
 /// Puts the tables of all parts one after the other; throws std::runtime_error if they do not fit.
-void attachMergedTable(
-  const std::vector<Part>& parts, vtkFieldData* parameters, vtkPolyData* merged)
+void attachMergedTable(std::vector<Part>& parts, vtkFieldData* parameters, vtkPolyData* merged)
 {
   const auto first = std::find_if(
     parts.begin(), parts.end(), [](const Part& part) { return part.baked.table != nullptr; });
@@ -226,6 +319,10 @@ void attachMergedTable(
     return;
   }
   const bool copyAsIs = sameFormat(parts, first->format);
+  if (!copyAsIs)
+  {
+    std::for_each(parts.begin(), parts.end(), decode);
+  }
   vtkSmartPointer<vtkDataArray> table = copyAsIs && first->format.bytes
     ? vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkUnsignedCharArray>::New())
     : vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkFloatArray>::New());
@@ -243,7 +340,7 @@ void attachMergedTable(
       {
         fail(TextureTableArray, "has another resolution in some blocks");
       }
-      const auto source = copyAsIs ? part.baked.table : decodedTable(part);
+      const vtkSmartPointer<vtkDataArray>& source = part.baked.table;
       if (offset + source->GetNumberOfTuples() > std::numeric_limits<std::int32_t>::max())
       {
         fail(TextureTableArray, "has more rows than 32-bit indices reach when blocks are merged");
@@ -256,6 +353,11 @@ void attachMergedTable(
   if (!copyAsIs)
   {
     description.set("encoding", Float32Linear);
+    description.set("storage", FullStorage);
+  }
+  else if (vtkDataArray* basis = parameters->GetArray(TextureBasisArray))
+  {
+    merged->GetFieldData()->AddArray(basis);
   }
   description.toFieldData(merged->GetFieldData());
   merged->GetFieldData()->AddArray(table);
@@ -277,8 +379,31 @@ void removeTextures(vtkPolyData& data)
 {
   data.GetPointData()->RemoveArray(TextureIndexArray);
   data.GetFieldData()->RemoveArray(TextureTableArray);
+  data.GetFieldData()->RemoveArray(TextureBasisArray);
   data.GetFieldData()->RemoveArray(ParametersArray);
 }
+}
+
+ExpandedRows expandRows(const BakedTextures& baked)
+{
+  ExpandedRows expanded;
+  std::unordered_map<int, std::int32_t> rowOfWord;
+  for (const int word : vtk::DataArrayValueRange<1>(vtkIntArray::SafeDownCast(baked.rows)))
+  {
+    std::int32_t row = -1;
+    if (word >= 0)
+    {
+      const auto next = static_cast<std::int32_t>(expanded.firsts.size());
+      const auto [entry, isNew] = rowOfWord.emplace(word, next);
+      row = entry->second;
+      if (isNew)
+      {
+        expanded.firsts.push_back(static_cast<std::size_t>(word));
+      }
+    }
+    expanded.rows.push_back(row);
+  }
+  return expanded;
 }
 
 BakedTextures readBakedTextures(vtkPointSet& points, std::string& warning)

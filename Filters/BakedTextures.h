@@ -10,6 +10,9 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,10 +26,21 @@ namespace po
 struct BakedTextures
 {
   OcclusionTextures textures;
-  vtkSmartPointer<vtkDataArray> table; ///< uint8 or float32, one tuple a texture
-  vtkSmartPointer<vtkDataArray> rows;  ///< int32, one value a point
-  vtkSmartPointer<vtkDataArray> means; ///< float32, one value a point, or null
+  vtkSmartPointer<vtkDataArray> table;          ///< uint8 or float32, one tuple a texture
+  vtkSmartPointer<vtkDataArray> rows;           ///< int32, one value a point
+  vtkSmartPointer<vtkDataArray> means;          ///< float32, one value a point, or null
+  std::shared_ptr<const PackedTextures> packed; ///< of textures of different lengths, or null
 };
+
+/// Textures of different lengths as rows of a table of T x T texels.
+struct ExpandedRows
+{
+  std::vector<std::size_t> firsts; ///< first word of each row's texture
+  std::vector<std::int32_t> rows;  ///< of each point; negative: none
+};
+
+/// The textures that points refer to, in the order of their first use; of packed ones only.
+[[nodiscard]] ExpandedRows expandRows(const BakedTextures& baked);
 
 /// The baked occlusion of `points`. Data without any of the arrays give empty textures and no
 /// warning; with an array that is missing or wrong, `warning` names it and the textures are empty.
@@ -37,7 +51,8 @@ struct BakedTextures
 /// blocks are dropped, as vtkAppendPolyData does.
 ///
 /// Texture tables are put one after the other, and the points' rows follow. Tables of one encoding
-/// and maximum are copied; where maxima or encodings differ they are decoded to float32. A block
+/// and maximum are copied; where maxima or encodings differ, or textures have different
+/// lengths and another basis, they are decoded to float32. A block
 /// without textures gets row -1. Where the resolutions differ, or a block's arrays are wrong, there
 /// are no textures in the result, and `warning` says why.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT vtkSmartPointer<vtkPolyData> mergeParticles(

@@ -16,11 +16,18 @@ namespace po
 inline constexpr const char* OcclusionArray = "AmbientOcclusion";
 inline constexpr const char* TextureIndexArray = "AmbientOcclusionTexture";
 inline constexpr const char* TextureTableArray = "AmbientOcclusionTextures";
+inline constexpr const char* TextureBasisArray = "AmbientOcclusionBasis";
 inline constexpr const char* ParametersArray = "AmbientOcclusionParameters";
 
 /// Values of the parameter "encoding".
 inline constexpr const char* UInt8Gamma2 = "UInt8Gamma2";
 inline constexpr const char* Float32Linear = "Float32Linear";
+
+/// Values of the parameter "storage"; without it the storage is Full.
+inline constexpr const char* FullStorage = "Full";
+inline constexpr const char* VariableSizeStorage = "VariableSize";
+inline constexpr const char* CompressedStorage = "Compressed";
+inline constexpr const char* OneValueStorage = "OneValue";
 
 /// What is needed to decode and to reproduce a texture table: keys and values in a fixed order.
 ///

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOcclusionTextureWriter.h"
 
+#include "BakedTextures.h"
 #include "Gamma2.h"
 #include "GeometryHash.h"
 #include "OcclusionParameters.h"
@@ -16,6 +17,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
@@ -149,6 +151,37 @@ std::string geometryOf(vtkPolyData* input, const po::OcclusionParameters& parame
     *input, parameters.has("radiusArray") ? parameters.get("radiusArray") : std::string());
 }
 
+bool isPacked(const po::OcclusionParameters& parameters)
+{
+  const std::string storage =
+    parameters.has("storage") ? parameters.get("storage") : po::FullStorage;
+  return storage != po::FullStorage && storage != po::OneValueStorage;
+}
+
+/// Textures of different lengths are written at T x T texels.
+void expandTextures(vtkPolyData* input, po::OcclusionTextureSource& source)
+{
+  struct Expanded
+  {
+    po::BakedTextures baked;
+    po::ExpandedRows rows;
+  };
+  auto expanded = std::make_shared<Expanded>();
+  std::string fault;
+  expanded->baked = po::readBakedTextures(*input, fault);
+  if (!fault.empty())
+  {
+    throw std::runtime_error(fault);
+  }
+  expanded->rows = po::expandRows(expanded->baked);
+  source.resolution = static_cast<int>(source.parameters.getInteger("resolution"));
+  source.textureCount = static_cast<std::int64_t>(expanded->rows.firsts.size());
+  source.rows = expanded->rows.rows.data();
+  source.texture = [expanded](std::int64_t row, float* texels)
+  { expanded->baked.packed->decode(expanded->rows.firsts[static_cast<std::size_t>(row)], texels); };
+  source.parameters.set("storage", po::FullStorage);
+}
+
 po::OcclusionTextureSource describeInput(vtkPolyData* input, int precision)
 {
   const vtkIdType points = input->GetNumberOfPoints();
@@ -166,12 +199,17 @@ po::OcclusionTextureSource describeInput(vtkPolyData* input, int precision)
   source.parameters = po::OcclusionParameters::fromFieldData(input->GetFieldData());
   source.geometry = geometryOf(input, source.parameters);
   source.precision = requirePrecision(precision, source.parameters);
+  source.particleCount = points;
+  source.means = means->GetPointer(0);
+  if (isPacked(source.parameters))
+  {
+    expandTextures(input, source);
+    return source;
+  }
   source.resolution = requireResolution(source.parameters, table);
   source.textureCount = table->GetNumberOfTuples();
-  source.particleCount = points;
   source.texture = linearTextures(input->GetFieldData(), source.parameters);
   source.rows = rows->GetPointer(0);
-  source.means = means->GetPointer(0);
   return source;
 }
 }

@@ -103,8 +103,7 @@ void vtkSphereAmbientOcclusion::Internals::CountParticles(const po::SphereCloud&
   this->Report.counters.particles = group.sum(owned);
   this->Report.counters.texels = this->Report.counters.particles * side * side;
   this->Report.counters.particlesDark = group.sum(dark);
-  const std::size_t bytes = result.table.bytes.size() + result.table.floats.size() * sizeof(float);
-  this->Report.textureBytes = group.sum(std::uint64_t(bytes));
+  this->Report.textureBytes = group.sum(std::uint64_t(result.table.size()));
 }
 
 vtkSphereAmbientOcclusion::vtkSphereAmbientOcclusion()
@@ -204,6 +203,8 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "DilateInside: " << this->DilateInside << "\n"
      << indent << "InsideThreshold: " << this->InsideThreshold << "\n"
      << indent << "Encoding: " << this->Encoding << "\n"
+     << indent << "Storage: " << this->Storage << "\n"
+     << indent << "StorageError: " << this->StorageError << "\n"
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "IdArray: " << (this->IdArray ? this->IdArray : "(automatic)") << "\n"
      << indent << "UseCache: " << this->UseCache << "\n"

@@ -32,7 +32,9 @@ class vtkMultiProcessController;
  * brighter background);
  * - point data `AmbientOcclusionTexture`, int32[N]: row of the particle's texture in the table;
  * - field data `AmbientOcclusionTextures`: one tuple a distinct texture, T*T components, uint8 or
- *   float32;
+ *   float32. With the storages VariableSize and Compressed textures have different lengths: tuples
+ *   are words of 4 bytes, and a particle's row is the first one of its texture; PackedFormat.h says
+ *   how they are read, and Compressed adds the field data `AmbientOcclusionBasis`;
  * - field data `AmbientOcclusionParameters`: strings "key=value", all that is needed to decode the
  *   table and to bake it again.
  *
@@ -238,6 +240,32 @@ public:
   vtkGetMacro(Encoding, int);
   ///@}
 
+  enum StorageType
+  {
+    Full = 0,         ///< T x T texels
+    VariableSize = 1, ///< each texture at the fewest texels that keep to StorageError
+    Compressed = 2,   ///< coefficients in a basis that all textures share; StorageError holds for
+                      ///< the set, and no texture is off by more than thrice of what it allows
+    OneValue = 3      ///< the particle's mean alone
+  };
+
+  ///@{
+  /// How much of each texture is stored [Full]. VariableSize and Compressed ask for UInt8Gamma2.
+  vtkSetMacro(Storage, int);
+  vtkGetMacro(Storage, int);
+  ///@}
+
+  ///@{
+  /**
+   * What the storages VariableSize and Compressed may add to the RMS error of linear visibility,
+   * which is the displayed value, 0 to 1 [0.01]. Textures may differ from what was baked, in RMS
+   * over the sphere, by sqrt(e^2 + 2 e n), with n half of the estimated error of the bake: noise of
+   * the bake need not be kept.
+   */
+  vtkSetMacro(StorageError, double);
+  vtkGetMacro(StorageError, double);
+  ///@}
+
   ///@{
   /// Seed of all random numbers, at least 0 [1]. The same seed gives the same bits, for any number
   /// of threads.
@@ -304,11 +332,12 @@ public:
   vtkIdType GetNumberOfParticlesAlone();  ///< no other within MaximumDistance
   const char* GetMethodUsed();            ///< what Automatic chose
   const char* GetRadiusUsed();            ///< where the radii came from, in words
-  int GetNumberOfDirections();  ///< of Sweep or Embree (the most of a particle), 0 otherwise
-  int GetNumberOfThreads();     ///< threads that took part
-  int GetNumberOfSamplesUsed(); ///< differs from SamplesPerTexel with Reference and TargetError
-  double GetEstimatedError();   ///< RMS error of linear visibility, 0 where none was found
-  double GetBakeSeconds();      ///< wall time of the whole execution
+  int GetNumberOfDirections();   ///< of Sweep or Embree (the most of a particle), 0 otherwise
+  int GetNumberOfThreads();      ///< threads that took part
+  int GetNumberOfSamplesUsed();  ///< differs from SamplesPerTexel with Reference and TargetError
+  double GetStorageDifference(); ///< RMS, over all spheres, of what storing has changed
+  double GetEstimatedError();    ///< RMS error of linear visibility, 0 where none was found
+  double GetBakeSeconds();       ///< wall time of the whole execution
   /// Whether there was no bake: the other numbers are then those of the bake that was kept.
   bool GetLoadedFromCache();
   ///@}
@@ -350,6 +379,8 @@ private:
   bool DilateInside = true;
   double InsideThreshold = 0.05;
   int Encoding = UInt8Gamma2;
+  int Storage = Full;
+  double StorageError = 0.01;
   int Seed = 1;
   char* IdArray = nullptr;
   bool UseCache = false;

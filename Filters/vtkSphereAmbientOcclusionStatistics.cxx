@@ -113,6 +113,11 @@ int vtkSphereAmbientOcclusion::GetNumberOfSamplesUsed()
   return this->Impl->Report.samplesUsed;
 }
 
+double vtkSphereAmbientOcclusion::GetStorageDifference()
+{
+  return this->Impl->Report.storageDifference;
+}
+
 double vtkSphereAmbientOcclusion::GetEstimatedError()
 {
   return this->Impl->Report.estimatedError;
@@ -142,6 +147,7 @@ const char* vtkSphereAmbientOcclusion::GetBakeEstimate()
   work.settings.textureResolution = this->TextureResolution;
   work.settings.samplesPerTexel = this->SamplesPerTexel;
   work.settings.encoding = static_cast<po::Encoding>(this->Encoding);
+  work.settings.storage = static_cast<po::Storage>(this->Storage);
   work.targetError = this->TargetError;
   this->Impl->Estimate = po::describe(
     po::estimateCost(work), work.particles, this->GetNumberOfCores(), this->GetFreeMemory());

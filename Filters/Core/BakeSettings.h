@@ -15,6 +15,15 @@ enum class Encoding
   Float32Linear = 1, ///< the value itself
 };
 
+/// How much of each texture is stored.
+enum class Storage
+{
+  Full = 0,         ///< T x T texels
+  VariableSize = 1, ///< the fewest texels that keep to an error, see SizePacker
+  Compressed = 2,   ///< coefficients in a common basis, see ComponentPacker
+  OneValue = 3,     ///< the particle's mean alone
+};
+
 /// What a bake is asked for. Lengths are in the units of the input data.
 struct BakeSettings
 {
@@ -27,6 +36,8 @@ struct BakeSettings
   bool dilateInside = true;      ///< fill texels inside other spheres from their neighbours
   double insideThreshold = 0.05; ///< a texel with a smaller outside share is inside, 0 to 1
   Encoding encoding = Encoding::UInt8Gamma2;
+  Storage storage = Storage::Full;
+  double storageError = 0.01; ///< what VariableSize and Compressed may add to the RMS error, 0 to 1
   std::uint64_t seed = 1;
   Background background = UniformBackground{};
 };

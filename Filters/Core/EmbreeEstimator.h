@@ -52,6 +52,8 @@ public:
   /// however many particles there are.
   [[nodiscard]] double bytesPerTexel() const override { return 0; }
 
+  [[nodiscard]] double estimatedError() const override { return report_.estimatedError; }
+
   /// Of the last estimate.
   [[nodiscard]] const EmbreeReport& report() const { return report_; }
 

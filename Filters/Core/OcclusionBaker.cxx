@@ -4,9 +4,12 @@
 #include "Dilation.h"
 #include "Random.h"
 #include "TexelMap.h"
+#include "TextureSizes.h"
+#include "TextureStore.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -21,9 +24,10 @@ public:
   TextureCollector(const BakeSettings& settings, std::size_t particles)
     : settings_(settings)
     , neighbours_(settings.textureResolution)
-    , table_(settings.textureResolution, particles)
-    , known_(table_.texelsPerRow())
-    , texture_(table_.texelsPerRow())
+    , table_(settings.storage == Storage::OneValue ? 1 : settings.textureResolution, particles)
+    , shares_(texelShares(settings.textureResolution))
+    , known_(shares_.size())
+    , texture_(shares_.size())
   {
     rowOf_.reserve(particles);
     mean_.reserve(particles);
@@ -37,18 +41,24 @@ public:
   {
     for (std::size_t i = 0; i < raw.count; ++i)
     {
-      const std::size_t offset = i * table_.texelsPerRow();
+      const std::size_t offset = i * texture_.size();
       addParticle(raw.values + offset, raw.outsideShares + offset);
     }
   }
 
-  void finish(BakeResult& result, const ProcessGroup& group)
+  /// @param noise see storeTextures
+  void finish(BakeResult& result, double noise, const ProcessGroup& group)
   {
     result.rowOf = std::move(rowOf_);
     result.mean = std::move(mean_);
     const double maximum = group.largest(table_.largestValue());
-    result.table = encode(std::move(table_), settings_.encoding, result.rowOf, maximum);
-    result.counters.texturesStored = static_cast<std::uint64_t>(result.table.rows);
+    result.table = storeTextures(std::move(table_), settings_, maximum, noise, group, result.rowOf);
+    if (settings_.storage == Storage::OneValue && !result.mean.empty())
+    {
+      result.table.difference =
+        std::sqrt(squaresFromMeans_ / static_cast<double>(result.mean.size()));
+    }
+    result.counters.texturesStored = static_cast<std::uint64_t>(result.table.textures);
     result.counters.particlesDark =
       static_cast<std::uint64_t>(std::count(result.mean.begin(), result.mean.end(), 0.0f));
   }
@@ -58,7 +68,9 @@ private:
   {
     mean_.push_back(meanOutside(values, shares));
     fillTexture(values, shares);
-    rowOf_.push_back(table_.insert(texture_.data()));
+    const bool oneValue = settings_.storage == Storage::OneValue;
+    squaresFromMeans_ += oneValue ? meanSquareFrom(mean_.back()) : 0;
+    rowOf_.push_back(table_.insert(oneValue ? &mean_.back() : texture_.data()));
   }
 
   /// Mean over the area outside other spheres; 0 if there is none.
@@ -74,6 +86,18 @@ private:
       area += outside;
     }
     return area > 0 ? static_cast<float>(light / area) : 0.0f;
+  }
+
+  /// Of the texture at hand, over the sphere.
+  [[nodiscard]] double meanSquareFrom(float mean) const
+  {
+    double sum = 0;
+    for (std::size_t texel = 0; texel < texture_.size(); ++texel)
+    {
+      const float difference = texture_[texel] - mean;
+      sum += static_cast<double>(shares_[texel] * difference * difference);
+    }
+    return sum;
   }
 
   /// Texels that lie inside get their value by dilation, or 0.
@@ -103,6 +127,8 @@ private:
   TexelNeighbours neighbours_;
   TextureTable table_;
   std::vector<double> areas_; ///< steradians of a texel, by row
+  std::vector<float> shares_; ///< of the sphere, by texel
+  double squaresFromMeans_ = 0;
   std::vector<std::int32_t> rowOf_;
   std::vector<float> mean_;
   std::vector<std::uint8_t> known_; ///< of the texture at hand
@@ -206,7 +232,8 @@ double bakeMemory(
   const double texels =
     static_cast<double>(settings.textureResolution) * settings.textureResolution;
   // The linear table stays until it is encoded; the encoded one is copied into the data set.
-  const double bytesPerTexel = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
+  const double full = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
+  const double bytesPerTexel = settings.storage == Storage::OneValue ? 0 : full;
   return static_cast<double>(particles) *
     (BytesPerSphere + texels * (bytesPerTexel + estimator.bytesPerTexel()));
 }
@@ -238,7 +265,8 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
   result.aborted = progress.aborted();
   if (!result.aborted)
   {
-    collector.finish(result, scene.group);
+    // Without a target error, estimates are up to twice too large: half of one is safe.
+    collector.finish(result, estimator.estimatedError() / 2, scene.group);
   }
   return result;
 }

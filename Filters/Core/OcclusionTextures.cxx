@@ -3,6 +3,8 @@
 
 #include "Gamma2.h"
 
+#include <utility>
+
 namespace po
 {
 OcclusionTextures::OcclusionTextures(int resolution, const std::uint8_t* bytes, double maximum,
@@ -27,6 +29,15 @@ OcclusionTextures::OcclusionTextures(
 {
 }
 
+OcclusionTextures::OcclusionTextures(std::shared_ptr<const PackedTextures> packed, int resolution,
+  const std::int32_t* rows, const float* means)
+  : resolution_(resolution)
+  , packed_(std::move(packed))
+  , rows_(rows)
+  , means_(means)
+{
+}
+
 float OcclusionTextures::at(std::size_t particle, Vec3f direction) const
 {
   const auto id = static_cast<std::int64_t>(particle);
@@ -38,28 +49,38 @@ float OcclusionTextures::at(std::size_t particle, Vec3f direction) const
 void OcclusionTextures::lookUp(
   const std::int64_t* particles, const Vec3f* directions, std::size_t count, float* values) const
 {
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    values[i] = means_ ? means_[particles[i]] : 1.0f;
+  }
+  if (!rows_)
+  {
+    return;
+  }
   TexelLookup lookup;
-  for (std::size_t i = 0; rows_ && i < BlockSize; ++i)
+  for (std::size_t i = 0; i < BlockSize; ++i)
   {
     const Vec3f direction = i < count ? directions[i] : Vec3f{ 1, 0, 0 };
     lookup.x[i] = direction.x;
     lookup.y[i] = direction.y;
     lookup.z[i] = direction.z;
   }
-  if (rows_)
-  {
-    findTexels(resolution_, lookup);
-  }
+  findTexels(resolution_, lookup);
+  packed_ ? lookUpPacked(particles, count, lookup, values)
+          : lookUpTexels(particles, count, lookup, values);
+}
+
+void OcclusionTextures::lookUpTexels(
+  const std::int64_t* particles, std::size_t count, const TexelLookup& lookup, float* values) const
+{
   for (std::size_t i = 0; i < count; ++i)
   {
-    const auto particle = static_cast<std::size_t>(particles[i]);
-    if (!rows_ || rows_[particle] < 0)
+    if (!hasTexture(particles[i]))
     {
-      values[i] = means_ ? means_[particle] : 1.0f;
       continue;
     }
     const std::size_t first =
-      static_cast<std::size_t>(rows_[particle]) * texelIndex(resolution_, resolution_, 0);
+      static_cast<std::size_t>(rows_[particles[i]]) * texelIndex(resolution_, resolution_, 0);
     const auto row = [&](std::int32_t j)
     {
       const float a = texel(first, j, lookup.column0[i]), b = texel(first, j, lookup.column1[i]);
@@ -67,6 +88,27 @@ void OcclusionTextures::lookUp(
     };
     const float a = row(lookup.row0[i]), b = row(lookup.row1[i]);
     values[i] = a + lookup.rowWeight[i] * (b - a);
+  }
+}
+
+void OcclusionTextures::lookUpPacked(
+  const std::int64_t* particles, std::size_t count, const TexelLookup& lookup, float* values) const
+{
+  std::array<std::size_t, BlockSize> firsts{}, lanes{};
+  std::size_t textures = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (hasTexture(particles[i]))
+    {
+      firsts[textures] = static_cast<std::size_t>(rows_[particles[i]]);
+      lanes[textures++] = i;
+    }
+  }
+  std::array<float, BlockSize> found{};
+  packed_->lookUp(firsts.data(), lanes.data(), textures, lookup, found.data());
+  for (std::size_t i = 0; i < textures; ++i)
+  {
+    values[lanes[i]] = found[i];
   }
 }
 }

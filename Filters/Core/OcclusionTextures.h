@@ -2,6 +2,7 @@
 #ifndef po_OcclusionTextures_h
 #define po_OcclusionTextures_h
 
+#include "PackedTextures.h"
 #include "TexelLookup.h"
 #include "TexelMap.h"
 #include "Vec3.h"
@@ -9,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 namespace po
 {
@@ -36,8 +38,13 @@ public:
   OcclusionTextures(
     int resolution, const float* values, const std::int32_t* rows, const float* means);
 
+  /// Textures of different lengths.
+  /// @param rows first word of each particle's texture, where one must begin
+  OcclusionTextures(std::shared_ptr<const PackedTextures> packed, int resolution,
+    const std::int32_t* rows, const float* means);
+
   /// Is every value 1?
-  [[nodiscard]] bool empty() const { return !bytes_ && !values_ && !means_; }
+  [[nodiscard]] bool empty() const { return !bytes_ && !values_ && !packed_ && !means_; }
 
   /// Bilinear value where `direction` (of any length) leaves the particle's centre. The texels are
   /// decoded first, so that the interpolation is one of light, not of code values.
@@ -51,6 +58,17 @@ public:
     const std::int64_t* particles, const Vec3f* directions, std::size_t count, float* values) const;
 
 private:
+  /// Looks up those lanes whose particles have a texture.
+  void lookUpTexels(const std::int64_t* particles, std::size_t count, const TexelLookup& lookup,
+    float* values) const;
+  void lookUpPacked(const std::int64_t* particles, std::size_t count, const TexelLookup& lookup,
+    float* values) const;
+
+  [[nodiscard]] bool hasTexture(std::int64_t particle) const
+  {
+    return rows_ && rows_[particle] >= 0;
+  }
+
   [[nodiscard]] float texel(std::size_t first, std::int32_t row, std::int32_t column) const
   {
     const std::size_t i = first + texelIndex(resolution_, row, column);
@@ -60,6 +78,7 @@ private:
   int resolution_ = 0;
   const std::uint8_t* bytes_ = nullptr;
   const float* values_ = nullptr;
+  std::shared_ptr<const PackedTextures> packed_;
   const std::int32_t* rows_ = nullptr;
   const float* means_ = nullptr;
   std::array<float, 256> decoded_{};

@@ -56,6 +56,8 @@ public:
   /// of all particles take 16.
   [[nodiscard]] double bytesPerTexel() const override { return options_.targetError > 0 ? 29 : 13; }
 
+  [[nodiscard]] double estimatedError() const override { return report_.estimatedError; }
+
   /// Of the last estimate.
   [[nodiscard]] const SweepReport& report() const { return report_; }
 

@@ -69,6 +69,8 @@ void findTexels(int resolution, TexelLookup& lookup)
     u = hn::IfThenElse(hn::Lt(u, hn::Zero(d)), hn::Add(u, hn::Set(d, 1.0f)), u);
     const Vector axisDistance = hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
     const Vector v = hn::Mul(hn::Add(perTurn, perTurn), angle(axisDistance, z));
+    hn::Store(u, d, lookup.u + lane);
+    hn::Store(v, d, lookup.v + lane);
     const auto i = splitPosition(hn::MulSub(u, size, half), lookup.columnWeight + lane);
     const auto j = splitPosition(hn::MulSub(v, size, half), lookup.rowWeight + lane);
     const auto next = hn::Add(i, one);

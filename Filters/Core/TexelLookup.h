@@ -16,6 +16,9 @@ struct TexelLookup
   // Directions of any length but zero.
   alignas(64) float x[Size], y[Size], z[Size];
 
+  // Position on the texture, see TextureCoordinate: 0 to 1, which rounding may take u to.
+  alignas(64) float u[Size], v[Size];
+
   // The four texels: columns wrapped, rows clamped. Weights are those of the second ones.
   alignas(64) std::int32_t column0[Size], column1[Size], row0[Size], row1[Size];
   alignas(64) float columnWeight[Size], rowWeight[Size];

@@ -108,6 +108,7 @@ EncodedTable encode(
   {
     encodeBytes(table, encoded, rowOf);
   }
+  encoded.textures = static_cast<std::size_t>(encoded.rows);
   return encoded;
 }
 }

@@ -4,6 +4,7 @@
 
 #include "BakeSettings.h"
 #include "Gamma2.h"
+#include "PackedFormat.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -60,12 +61,44 @@ private:
 /// A table in the form it is stored in: exactly one of the vectors is filled.
 struct EncodedTable
 {
+  Storage storage = Storage::Full;
   Encoding encoding = Encoding::UInt8Gamma2;
   int resolution = 0;
-  std::int32_t rows = 0;
+  std::int32_t rows = 0; ///< tuples: textures, or words of packed ones
+  std::size_t textures = 0;
   double maximum = 0; ///< the scale of UInt8Gamma2
   std::vector<std::uint8_t> bytes;
   std::vector<float> floats;
+  PackedFormat packed;   ///< of VariableSize and Compressed
+  double difference = 0; ///< RMS over particles and the sphere, between what was baked and stored
+
+  /// Are the textures of different lengths, see PackedFormat?
+  [[nodiscard]] bool isPacked() const
+  {
+    return storage == Storage::VariableSize || storage == Storage::Compressed;
+  }
+
+  /// Tuples of the texture that begins at a row.
+  [[nodiscard]] std::size_t tuplesAt(std::int32_t row) const
+  {
+    return isPacked()
+      ? packed.wordsOf(bytes[PackedFormat::WordBytes * static_cast<std::size_t>(row)])
+      : 1;
+  }
+
+  /// Values of a tuple: bytes of a word, or texels.
+  [[nodiscard]] std::size_t valuesPerTuple() const
+  {
+    return isPacked() ? PackedFormat::WordBytes
+                      : static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
+  }
+
+  /// Bytes of the table and its basis.
+  [[nodiscard]] std::size_t size() const
+  {
+    return bytes.size() + sizeof(float) * floats.size() +
+      sizeof(std::int16_t) * packed.basis.numbers.size();
+  }
 };
 
 /// Encodes a table and gives up its values. Textures that become equal by rounding are merged.

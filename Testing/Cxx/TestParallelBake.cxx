@@ -2,6 +2,7 @@
 // Several processes bake one set: each result is compared with a bake of the whole set by one
 // process alone. Run by mpiexec with any number of processes.
 
+#include "BakedTextures.h"
 #include "ParallelBakeTestSupport.h"
 
 #include "vtkCallbackCommand.h"
@@ -243,6 +244,38 @@ TEST(ParallelBakeFilter, TablesOfAllProcessesHaveOneScale)
   EXPECT_EQ(difference(output(alone), output(together)).particles, 0);
   EXPECT_EQ(parameter(output(alone)->GetFieldData(), "maximum"),
     parameter(output(together)->GetFieldData(), "maximum"));
+}
+
+TEST(ParallelBakeFilter, StoredTexturesDoNotDependOnTheProcesses)
+{
+  const auto whole = mixedCloud(600);
+  for (const int storage : { vtkSphereAmbientOcclusion::VariableSize,
+         vtkSphereAmbientOcclusion::Compressed, vtkSphereAmbientOcclusion::OneValue })
+  {
+    const auto prepare = [&](vtkSphereAmbientOcclusion* filter)
+    {
+      filter->SetEncoding(vtkSphereAmbientOcclusion::UInt8Gamma2);
+      filter->SetStorage(storage);
+    };
+    const auto alone = bake(whole, false, prepare);
+    const auto together = bake(ownPart(whole, interleaved), true, prepare);
+    std::string fault;
+    const po::BakedTextures a = po::readBakedTextures(*output(alone), fault);
+    EXPECT_EQ(fault, "");
+    const po::BakedTextures b = po::readBakedTextures(*output(together), fault);
+    EXPECT_EQ(fault, "");
+    vtkDataArray* numbers = output(together)->GetPointData()->GetArray("number");
+    for (vtkIdType i = 0; i < numbers->GetNumberOfTuples(); ++i)
+    {
+      const auto number = static_cast<std::size_t>(numbers->GetComponent(i, 0));
+      for (const po::Vec3f direction : { po::Vec3f{ 1, 2, 3 }, po::Vec3f{ -1, 0.5f, -0.2f } })
+      {
+        EXPECT_EQ(
+          a.textures.at(number, direction), b.textures.at(static_cast<std::size_t>(i), direction));
+      }
+    }
+    EXPECT_NEAR(alone->GetStorageDifference(), together->GetStorageDifference(), 1e-9);
+  }
 }
 
 TEST(ParallelBakeFilter, AnErrorOfOneProcessIsTheErrorOfAll)

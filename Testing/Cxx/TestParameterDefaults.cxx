@@ -41,6 +41,8 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "DilateInside", { f->GetDilateInside() } },
     { "InsideThreshold", { f->GetInsideThreshold() } },
     { "Encoding", { f->GetEncoding() } },
+    { "Storage", { f->GetStorage() } },
+    { "StorageError", { f->GetStorageError() } },
     { "Seed", { f->GetSeed() } },
     { "IdArray", { po::RadiusSettings::Automatic } },
     { "UseCache", { f->GetUseCache() } },
@@ -66,6 +68,8 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
   EXPECT_EQ(f->GetDilateInside(), core.dilateInside);
   EXPECT_EQ(f->GetInsideThreshold(), core.insideThreshold);
   EXPECT_EQ(f->GetEncoding(), static_cast<int>(core.encoding));
+  EXPECT_EQ(f->GetStorage(), static_cast<int>(core.storage));
+  EXPECT_EQ(f->GetStorageError(), core.storageError);
   EXPECT_EQ(static_cast<std::uint64_t>(f->GetSeed()), core.seed);
   EXPECT_EQ(f->GetBackground(), static_cast<int>(core.background.index()));
   const po::GradientBackground gradient;

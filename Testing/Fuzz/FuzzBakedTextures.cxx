@@ -15,15 +15,20 @@ vtkSmartPointer<vtkStringArray> anyParameters(Provider& bytes)
 {
   auto strings = vtkSmartPointer<vtkStringArray>::New();
   strings->SetName("AmbientOcclusionParameters");
-  const std::array<const char*, 8> usual = { "resolution=2", "encoding=UInt8Gamma2", "maximum=1",
-    "encoding=Float32Linear", "resolution=1", "maximum=0.5", "version=1", "gamma=2" };
-  for (int i = bytes.ConsumeIntegralInRange<int>(0, 6); i > 0; --i)
+  const std::array<const char*, 14> usual = { "resolution=2", "encoding=UInt8Gamma2", "maximum=1",
+    "encoding=Float32Linear", "resolution=1", "maximum=0.5", "version=1", "gamma=2",
+    "storage=VariableSize", "storage=Compressed", "storage=OneValue", "basisScale=0.01",
+    "componentBits=8", "componentBits=,82" };
+  for (int i = bytes.ConsumeIntegralInRange<int>(0, 8); i > 0; --i)
   {
-    const auto kind = bytes.ConsumeIntegralInRange<std::size_t>(0, 15);
+    const auto kind = bytes.ConsumeIntegralInRange<std::size_t>(0, 21);
     std::string entry = kind < usual.size() ? usual[kind] : bytes.ConsumeRandomLengthString(24);
-    if (kind >= 12) // a known key with any value
+    const std::array<const char*, 4> keys = {
+      "resolution=", "maximum=", "storage=", "componentBits="
+    };
+    if (kind >= 18) // a known key with any value
     {
-      entry = std::string(kind < 14 ? "resolution=" : "maximum=") + entry;
+      entry = keys[kind - 18] + entry;
     }
     strings->InsertNextValue(entry);
   }
@@ -57,6 +62,10 @@ vtkSmartPointer<vtkPolyData> anyBakedBlock(Provider& bytes)
   add("AmbientOcclusionTexture", data->GetPointData(), count, VTK_INT);
   add("AmbientOcclusionTextures", data->GetFieldData(), -1,
     bytes.ConsumeBool() ? VTK_UNSIGNED_CHAR : VTK_FLOAT);
+  if (bytes.ConsumeBool())
+  {
+    add("AmbientOcclusionBasis", data->GetFieldData(), -1, VTK_SHORT);
+  }
   data->GetFieldData()->AddArray(anyParameters(bytes));
   addArrays(bytes, data);
   return data;
