@@ -5,6 +5,7 @@
 #include "vtkCommand.h"
 #include "vtkPVXMLElement.h"
 #include "vtkSMProperty.h"
+#include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
@@ -12,6 +13,18 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+
+namespace
+{
+/// One by one: the helper sets several doubles of properties of doubles only.
+void set(vtkSMPropertyHelper&& helper, const std::vector<double>& values)
+{
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    helper.Set(static_cast<unsigned int>(i), values[i]);
+  }
+}
+}
 
 pqPresets::pqPresets(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
   : Superclass(proxy, parent)
@@ -52,11 +65,14 @@ void pqPresets::read(vtkSMProperty* property)
     for (unsigned int k = 0; k < element->GetNumberOfNestedElements(); ++k)
     {
       vtkPVXMLElement* entry = element->GetNestedElement(k);
-      double value = 0;
-      entry->GetScalarAttribute("value", &value);
+      std::vector<double> values;
+      for (const QString& number : QString(entry->GetAttribute("value")).split(' '))
+      {
+        values.push_back(number.toDouble());
+      }
       if (this->proxy()->GetProperty(entry->GetAttribute("property")))
       {
-        preset.Values.append({ entry->GetAttribute("property"), value });
+        preset.Values.append({ entry->GetAttribute("property"), values });
       }
     }
     this->Presets.append(preset);
@@ -66,10 +82,10 @@ void pqPresets::read(vtkSMProperty* property)
 bool pqPresets::matches(const Preset& preset) const
 {
   return std::all_of(preset.Values.begin(), preset.Values.end(),
-    [this](const QPair<QString, double>& value)
+    [this](const QPair<QString, std::vector<double>>& value)
     {
       return vtkSMUncheckedPropertyHelper(this->proxy(), value.first.toUtf8().data())
-               .GetAsDouble() == value.second;
+               .GetDoubleArray() == value.second;
     });
 }
 
@@ -79,6 +95,21 @@ void pqPresets::showMatching()
     [this](const Preset& preset) { return this->matches(preset); });
   const int index = static_cast<int>(match - this->Presets.begin());
   this->Box->setCurrentIndex(match == this->Presets.end() ? 0 : index + 1);
+}
+
+void pqPresets::apply()
+{
+  this->Superclass::apply();
+  const int index = this->Box->currentIndex();
+  if (index == 0)
+  {
+    return; // the widgets of the properties apply them
+  }
+  for (const auto& value : this->Presets[index - 1].Values)
+  {
+    set(vtkSMPropertyHelper(this->proxy(), value.first.toUtf8().data()), value.second);
+  }
+  this->proxy()->UpdateVTKObjects();
 }
 
 void pqPresets::choose(int index)
@@ -91,7 +122,7 @@ void pqPresets::choose(int index)
   const Preset preset = this->Presets[index - 1];
   for (const auto& value : preset.Values)
   {
-    vtkSMUncheckedPropertyHelper(this->proxy(), value.first.toUtf8().data()).Set(value.second);
+    set(vtkSMUncheckedPropertyHelper(this->proxy(), value.first.toUtf8().data()), value.second);
   }
   Q_EMIT this->changeAvailable();
 }

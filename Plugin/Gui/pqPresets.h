@@ -8,11 +8,13 @@
 #include <QPair>
 #include <QString>
 
+#include <vector>
+
 class QComboBox;
 
 /// Sets several properties of a proxy at once, by presets that the XML of the property lists:
 ///
-///     <Hints><Preset name="Fast"><Value property="Resolution" value="8"/></Preset></Hints>
+///     <Hints><Preset name="White"><Value property="Color" value="1 1 1"/></Preset></Hints>
 ///
 /// Presets are no state: the properties are. Where they have other values it shows "Custom".
 class pqPresets : public pqPropertyWidget
@@ -23,6 +25,9 @@ class pqPresets : public pqPropertyWidget
 public:
   pqPresets(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
 
+  /// Of a display only the widget that was changed is applied, so this must apply what it has set.
+  void apply() override;
+
 private Q_SLOTS:
   void choose(int index);
   void showMatching();
@@ -31,7 +36,7 @@ private:
   struct Preset
   {
     QString Name;
-    QList<QPair<QString, double>> Values; ///< of properties with one number
+    QList<QPair<QString, std::vector<double>>> Values; ///< numbers of properties
   };
 
   void read(vtkSMProperty* property);

@@ -23,7 +23,8 @@ def main():
     try:
         session = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                  errors="replace", timeout=100, check=False)
-        if session.returncode != 0 or "Success =  true" not in session.stdout:
+        passed = session.returncode == 0 and "Success =  true" in session.stdout
+        if not passed or "ERR|" in session.stdout or "WARN|" in session.stdout:
             raise SystemExit(f"ParaView has ended with {session.returncode}:\n{session.stdout[-4000:]}")
     finally:
         shutil.rmtree(home)

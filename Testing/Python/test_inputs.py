@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whatever ParaView reads as points is baked and shown as spheres, and the radii are said to come from where they do."""
+import gzip
 import os
 import shutil
 import tempfile
@@ -31,6 +32,27 @@ def write_table(path):
         file.writelines(f"{x},{y},{z},1.5,{2.0 + i}\n" for i, (_, x, y, z) in enumerate(ATOMS))
 
 
+def write_dump(path):
+    with gzip.open(path, "wt", encoding="ascii") as file:
+        for step in (0, 500):
+            file.write(f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{len(ATOMS)}\n"
+                       "ITEM: BOX BOUNDS ff ff ff\n-20 20\n-20 20\n-20 20\nITEM: ATOMS id x y z radius\n")
+            file.writelines(f"{i + 1} {x + step} {y} {z} 0.7\n" for i, (_, x, y, z) in enumerate(ATOMS))
+
+
+def check_readers(dump, xyz):
+    """OpenDataFile finds the plugin's own reader, also where ParaView has others for the ending."""
+    steps = OpenDataFile(dump)
+    assert steps.SMProxy.GetXMLName() == "LAMMPSDumpAndXYZReader", steps.SMProxy.GetXMLName()
+    assert list(steps.TimestepValues) == [0, 500], list(steps.TimestepValues)
+    steps.UpdatePipeline(500)
+    assert abs(steps.GetDataInformation().GetBounds()[0] - 509.4) < 1e-9, steps.GetDataInformation().GetBounds()
+    check("LAMMPS dump", steps, "point array radius")
+    atoms = OpenDataFile(xyz)
+    assert atoms.SMProxy.GetXMLName() == "LAMMPSDumpAndXYZReader", atoms.SMProxy.GetXMLName()
+    check("XYZ text", atoms, "van der Waals radii in Å of the elements in point array element")
+
+
 def check(name, source, radius_used, **radii):
     """The filter and the representation, on the same radii."""
     baked = SphereAmbientOcclusion(Input=source, TextureResolution=4, SamplesPerTexel=9, **radii)
@@ -59,7 +81,7 @@ def main():
     folder = tempfile.mkdtemp(prefix="particleocclusion-inputs-")
     data = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Data")
     try:
-        path = {name: os.path.join(folder, "atoms." + name) for name in ("pdb", "xyz", "csv")}
+        path = {name: os.path.join(folder, "atoms." + name) for name in ("pdb", "xyz", "csv", "dump.gz")}
         write_pdb(path["pdb"])
         write_xyz(path["xyz"])
         write_table(path["csv"])
@@ -68,6 +90,9 @@ def main():
         check("PDB", PDBReader(FileName=path["pdb"]), elements + "atom_type")
         molecule = MoleculeToLines(Input=XYZReader(FileName=path["xyz"]))
         check("XYZ", molecule, elements + "Atomic Numbers")
+
+        write_dump(path["dump.gz"])
+        check_readers(path["dump.gz"], path["xyz"])
 
         table = TableToPoints(Input=CSVReader(FileName=[path["csv"]]), XColumn="x", YColumn="y", ZColumn="z")
         check("table", table, "half of point array diameter")
