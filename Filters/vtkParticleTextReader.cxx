@@ -163,7 +163,7 @@ struct vtkParticleTextReader::Internals
 
   std::vector<std::string> Files;
   std::map<double, Frame> Frames; ///< by time
-  bool Found = false; ///< the frames of all files
+  bool Found = false;             ///< the frames of all files
 };
 
 vtkParticleTextReader::vtkParticleTextReader()

@@ -62,4 +62,4 @@ mmdebstrap --variant=minbase --format=null \
   --customize-hook='chroot "$1" apt-get install --yes --no-install-recommends /tmp/package.deb \
     python3-paraview xvfb xauth libgl1-mesa-dri >/dev/null' \
   --customize-hook='chroot "$1" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root bash /tmp/check.sh' \
-  bookworm /dev/null "${MIRROR:-http://deb.debian.org/debian}"
+  bookworm /dev/null ${MIRROR:+"$MIRROR"}

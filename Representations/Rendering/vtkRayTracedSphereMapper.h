@@ -56,8 +56,8 @@ public:
 
   ///@{
   /// RadiusArray: name of the point array that gives the radii, in world units; of an array named
-  /// "diameter" half the value. Empty (default): the first of radius, Radius, rad, r, diameter that exists,
-  /// otherwise none. "(none)": no array, all radii are ConstantRadius.
+  /// "diameter" half the value. Empty (default): the first of radius, Radius, rad, r, diameter that
+  /// exists, otherwise none. "(none)": no array, all radii are ConstantRadius.
   /// RadiusScale: factor on every radius, positive. Default 1.
   /// ConstantRadius: radius of all spheres where no array is used, in world units. 0 (default):
   /// of the elements if the points have them, else half the median distance between nearest
