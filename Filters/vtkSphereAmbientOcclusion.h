@@ -240,6 +240,7 @@ public:
   vtkGetMacro(Encoding, int);
   ///@}
 
+  /// What the table stores of a texture.
   enum StorageType
   {
     Full = 0,         ///< T x T texels
