@@ -39,7 +39,7 @@ struct vtkRayTracedSphereMapper::Internals
   [[nodiscard]] std::uint64_t pictureVersion() const
   {
     const po::RenderStatistics& s = this->Renderer.statistics();
-    return this->VersionBase + 1 + s.framesTraced + s.framesShaded + s.samplesTraced;
+    return this->VersionBase + 1 + s.framesTraced + s.framesShaded + s.samplesAdded;
   }
 
   /// Maps the scalars of the mapper's points.
