@@ -11,7 +11,7 @@ import tempfile
 
 import images
 import servers
-from paraview import servermanager, simple
+from paraview import simple
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 PVPYTHON, PYTHON, MPIEXEC, PACKAGES = sys.argv[1:5]
@@ -90,15 +90,31 @@ def check_plain_vtk(folder):
     images.compare(picture, "plain-vtk.png")
 
 
+#: Beginnings of the names of what the plugin adds to a display and a view of ParaView's.
+ADDED = ("Silhouette", "Crop", "Radius", "ConstantRadius", "Density", "Shading", "OcclusionOn", "Shadows", "SamplesPer",
+         "InteractiveRate", "Layers", "DisplayPresets")
+
+
+def require_help(proxy, least, beginnings=""):
+    """help() describes the proxy and at least so many properties whose names begin so, none of them with nothing."""
+    help_of = {key: value.__doc__ for key, value in vars(type(proxy)).items()
+               if isinstance(value, property) and key.startswith(beginnings)}
+    assert len(help_of) >= least and len(type(proxy).__doc__) > 50, (list(help_of), type(proxy).__doc__)
+    silent = [key for key, text in help_of.items() if not (text or "").strip()]
+    assert not silent, f"{type(proxy).__name__} says nothing of {silent}"
+
+
 def check_help(_):
-    """help() of what the plugin's functions return describes the filter and every property of it."""
-    simple.LoadPlugin(os.environ["PARTICLEOCCLUSION_PLUGIN"])
-    for name, least in (("SphereAmbientOcclusion", 20), ("DepthSilhouettes", 10), ("LoadOcclusionTexturesEXR", 2)):
-        proxy = getattr(servermanager.filters, name)
-        help_of = {key: value.__doc__ for key, value in vars(proxy).items() if isinstance(value, property)}
-        assert len(help_of) >= least and len(proxy.__doc__) > 50, (name, list(help_of), proxy.__doc__)
-        silent = [key for key, text in help_of.items() if not (text or "").strip()]
-        assert not silent, f"{name} says nothing of {silent}"
+    """help() of filters, the reader, a display and the view describes each, and every property that is the plugin's."""
+    simple.LoadPlugin(os.environ["PARTICLEOCCLUSION_PLUGIN"], ns=vars(simple))
+    baked = simple.SphereAmbientOcclusion(Input=simple.OpenDataFile(HEAP))
+    view = simple.CreateView("RenderViewWithSilhouettes")
+    require_help(baked, 20)
+    require_help(simple.DepthSilhouettes(Input=simple.Wavelet()), 10)
+    require_help(simple.LoadOcclusionTexturesEXR(Input=baked), 2)
+    require_help(simple.LAMMPSDumpandXYZReader(), 2)
+    require_help(simple.Show(baked, view), 35, ADDED)
+    require_help(view, 18, ADDED)
 
 
 with tempfile.TemporaryDirectory() as work:
