@@ -4,8 +4,8 @@
 #include "Dilation.h"
 #include "Random.h"
 #include "TexelMap.h"
+#include "TextureIntake.h"
 #include "TextureSizes.h"
-#include "TextureStore.h"
 
 #include <algorithm>
 #include <array>
@@ -24,12 +24,11 @@ public:
   TextureCollector(const BakeSettings& settings, std::size_t particles)
     : settings_(settings)
     , neighbours_(settings.textureResolution)
-    , table_(settings.storage == Storage::OneValue ? 1 : settings.textureResolution, particles)
+    , textures_(settings, particles)
     , shares_(texelShares(settings.textureResolution))
     , known_(shares_.size())
     , texture_(shares_.size())
   {
-    rowOf_.reserve(particles);
     mean_.reserve(particles);
     for (int row = 0; row < settings.textureResolution; ++row)
     {
@@ -49,10 +48,8 @@ public:
   /// @param noise see storeTextures
   void finish(BakeResult& result, double noise, const ProcessGroup& group)
   {
-    result.rowOf = std::move(rowOf_);
     result.mean = std::move(mean_);
-    const double maximum = group.largest(table_.largestValue());
-    result.table = storeTextures(std::move(table_), settings_, maximum, noise, group, result.rowOf);
+    result.table = textures_.finish(noise, group, result.rowOf);
     if (settings_.storage == Storage::OneValue && !result.mean.empty())
     {
       result.table.difference =
@@ -70,7 +67,7 @@ private:
     fillTexture(values, shares);
     const bool oneValue = settings_.storage == Storage::OneValue;
     squaresFromMeans_ += oneValue ? meanSquareFrom(mean_.back()) : 0;
-    rowOf_.push_back(table_.insert(oneValue ? &mean_.back() : texture_.data()));
+    textures_.add(oneValue ? &mean_.back() : texture_.data());
   }
 
   /// Mean over the area outside other spheres; 0 if there is none.
@@ -125,11 +122,10 @@ private:
 
   const BakeSettings& settings_;
   TexelNeighbours neighbours_;
-  TextureTable table_;
+  TextureIntake textures_;
   std::vector<double> areas_; ///< steradians of a texel, by row
   std::vector<float> shares_; ///< of the sphere, by texel
   double squaresFromMeans_ = 0;
-  std::vector<std::int32_t> rowOf_;
   std::vector<float> mean_;
   std::vector<std::uint8_t> known_; ///< of the texture at hand
   std::vector<float> texture_;
@@ -231,7 +227,8 @@ double bakeMemory(
 {
   const double texels =
     static_cast<double>(settings.textureResolution) * settings.textureResolution;
-  // The linear table stays until it is encoded; the encoded one is copied into the data set.
+  // The linear table stays until it is encoded, mostly at once (see TextureIntake) but not always;
+  // the encoded one is copied into the data set.
   const double full = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
   const double bytesPerTexel = settings.storage == Storage::OneValue ? 0 : full;
   return static_cast<double>(particles) *

@@ -10,6 +10,14 @@
 
 namespace po
 {
+namespace
+{
+[[noreturn]] void refuseMoreRows()
+{
+  throw std::length_error("More than 2^31 - 1 distinct textures do not fit the texture index.");
+}
+}
+
 std::int32_t RowIndex::findOrAdd(const char* row, const char* rows, std::int32_t count)
 {
   const std::size_t hash = std::hash<std::string_view>{}({ row, bytesPerRow_ });
@@ -38,7 +46,7 @@ std::int32_t TextureTable::insert(const float* texture)
 {
   if (rows_ == std::numeric_limits<std::int32_t>::max())
   {
-    throw std::length_error("More than 2^31 - 1 distinct textures do not fit the texture index.");
+    refuseMoreRows();
   }
   const std::int32_t row = index_.findOrAdd(
     reinterpret_cast<const char*>(texture), reinterpret_cast<const char*>(values_.data()), rows_);
@@ -50,35 +58,53 @@ std::int32_t TextureTable::insert(const float* texture)
   return row;
 }
 
-namespace
+ByteTable::ByteTable(int resolution, double maximum, std::size_t expected)
+  : row_(static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution))
+  , index_(row_.size())
 {
-/// Bytes of all rows, in place of equal ones only the first; `rowOf` follows.
-void encodeBytes(const TextureTable& table, EncodedTable& encoded, std::vector<std::int32_t>& rowOf)
+  encoded_.encoding = Encoding::UInt8Gamma2;
+  encoded_.resolution = resolution;
+  encoded_.maximum = maximum;
+  encoded_.bytes.reserve(expected * row_.size());
+}
+
+std::int32_t ByteTable::insert(const float* texture)
 {
-  const std::size_t texels = table.texelsPerRow();
-  encoded.bytes.reserve(texels * static_cast<std::size_t>(table.rows()));
+  if (encoded_.rows == std::numeric_limits<std::int32_t>::max())
+  {
+    refuseMoreRows();
+  }
+  std::transform(texture, texture + row_.size(), row_.begin(),
+    [this](float value) { return encodeGamma2(value, encoded_.maximum); });
+  const std::int32_t row = index_.findOrAdd(reinterpret_cast<const char*>(row_.data()),
+    reinterpret_cast<const char*>(encoded_.bytes.data()), encoded_.rows);
+  if (row == encoded_.rows)
+  {
+    encoded_.bytes.insert(encoded_.bytes.end(), row_.begin(), row_.end());
+    ++encoded_.rows;
+  }
+  return row;
+}
+
+void ByteTable::insertAll(const TextureTable& table, std::vector<std::int32_t>& rowOf)
+{
   std::vector<std::int32_t> newRow(static_cast<std::size_t>(table.rows()));
-  std::vector<std::uint8_t> row(texels);
-  RowIndex index(texels);
   const float* values = table.values().data();
   for (std::int32_t& target : newRow)
   {
-    std::transform(values, values + texels, row.begin(),
-      [&](float value) { return encodeGamma2(value, encoded.maximum); });
-    values += texels;
-    target = index.findOrAdd(reinterpret_cast<const char*>(row.data()),
-      reinterpret_cast<const char*>(encoded.bytes.data()), encoded.rows);
-    if (target == encoded.rows)
-    {
-      encoded.bytes.insert(encoded.bytes.end(), row.begin(), row.end());
-      ++encoded.rows;
-    }
+    target = insert(values);
+    values += table.texelsPerRow();
   }
-  for (std::int32_t& particleRow : rowOf)
+  for (std::int32_t& row : rowOf)
   {
-    particleRow = particleRow < 0 ? particleRow : newRow[static_cast<std::size_t>(particleRow)];
+    row = row < 0 ? row : newRow[static_cast<std::size_t>(row)];
   }
 }
+
+EncodedTable ByteTable::take()
+{
+  encoded_.textures = static_cast<std::size_t>(encoded_.rows);
+  return std::move(encoded_);
 }
 
 double TextureTable::largestValue() const
@@ -95,20 +121,19 @@ EncodedTable encode(TextureTable&& table, Encoding encoding, std::vector<std::in
 EncodedTable encode(
   TextureTable&& table, Encoding encoding, std::vector<std::int32_t>& rowOf, double maximum)
 {
+  if (encoding == Encoding::UInt8Gamma2)
+  {
+    ByteTable bytes(table.resolution(), maximum, static_cast<std::size_t>(table.rows()));
+    bytes.insertAll(table, rowOf);
+    return bytes.take();
+  }
   EncodedTable encoded;
   encoded.encoding = encoding;
   encoded.resolution = table.resolution();
   encoded.maximum = maximum;
-  if (encoding == Encoding::Float32Linear)
-  {
-    encoded.rows = table.rows();
-    encoded.floats = table.takeValues();
-  }
-  else
-  {
-    encodeBytes(table, encoded, rowOf);
-  }
+  encoded.rows = table.rows();
   encoded.textures = static_cast<std::size_t>(encoded.rows);
+  encoded.floats = table.takeValues();
   return encoded;
 }
 }

@@ -101,6 +101,30 @@ struct EncodedTable
   }
 };
 
+/// The distinct textures of a bake as bytes of UInt8Gamma2.
+class ByteTable
+{
+public:
+  /// @param maximum the scale, at least as large as any value
+  /// @param expected textures are reserved
+  ByteTable(int resolution, double maximum, std::size_t expected);
+
+  /// The row that holds the bytes of a texture, added if no equal ones are there.
+  std::int32_t insert(const float* texture);
+
+  /// Inserts all textures of a table.
+  /// @param rowOf the row of each particle, changed to the rows of this; negative entries stay
+  void insertAll(const TextureTable& table, std::vector<std::int32_t>& rowOf);
+
+  /// Gives up what it holds.
+  [[nodiscard]] EncodedTable take();
+
+private:
+  EncodedTable encoded_;
+  std::vector<std::uint8_t> row_; ///< of the texture at hand
+  RowIndex index_;
+};
+
 /// Encodes a table and gives up its values. Textures that become equal by rounding are merged.
 ///
 /// @param rowOf the row of each particle, changed to the rows of the encoded table; negative

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constants.h"
+#include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
+#include "SweepEstimator.h"
 #include "TestScenes.h"
 #include "TexelMap.h"
 
@@ -13,6 +15,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numeric>
 #include <thread>
 
@@ -399,5 +402,53 @@ TEST(OcclusionBaker, AnEmptyCloudGivesAnEmptyTable)
   const po::BakeResult result = bake({}, po::BakeSettings{});
   EXPECT_EQ(result.table.rows, 0);
   EXPECT_TRUE(result.rowOf.empty());
+}
+
+/// A bake's bytes, made while textures arrive, are those of the table of all linear values.
+TEST(OcclusionBaker, BytesAreThoseOfAllValuesTogether)
+{
+  std::vector<po::Sphere> closed;
+  addClosedShell(closed, 5, 1.2, 150);
+  std::vector<po::Sphere> mixed = mixedScene();
+  mixed.push_back({ 90, 90, 90, 1 }); // open all over, the last one
+  po::GradientBackground sky;
+  sky.top = 3;
+  std::vector<std::unique_ptr<po::OcclusionEstimator>> methods;
+  methods.push_back(std::make_unique<po::ReferenceEstimator>());
+  methods.push_back(std::make_unique<po::SweepEstimator>());
+  methods.push_back(std::make_unique<po::EmbreeEstimator>());
+  for (const std::vector<po::Sphere>& spheres : { mixed, closed })
+  {
+    for (const po::Background& background :
+      { po::Background{ po::UniformBackground{} }, po::Background{ sky } })
+    {
+      for (const auto& method : methods)
+      {
+        const po::SphereCloud cloud = cloudOf(spheres);
+        const po::BakeScene scene(cloud);
+        po::Progress progress;
+        po::BakeSettings settings = floatSettings(8, 25);
+        settings.background = background;
+        const po::BakeResult linear = po::bakeOcclusion(scene, settings, *method, progress);
+        settings.encoding = po::Encoding::UInt8Gamma2;
+        const po::BakeResult bytes = po::bakeOcclusion(scene, settings, *method, progress);
+
+        po::TextureTable table(8, 0);
+        for (std::int32_t row = 0; row < linear.table.rows; ++row)
+        {
+          ASSERT_EQ(table.insert(linear.table.floats.data() + 64 * row), row);
+        }
+        const double brightest = table.largestValue();
+        EXPECT_LE(brightest, background.index() == 0 ? 1 : 3);
+        std::vector<std::int32_t> rowOf = linear.rowOf;
+        const po::EncodedTable expected =
+          po::encode(std::move(table), po::Encoding::UInt8Gamma2, rowOf);
+        EXPECT_EQ(bytes.table.maximum, brightest);
+        EXPECT_EQ(bytes.table.bytes, expected.bytes);
+        EXPECT_EQ(bytes.table.textures, expected.textures);
+        EXPECT_EQ(bytes.rowOf, rowOf);
+      }
+    }
+  }
 }
 }
