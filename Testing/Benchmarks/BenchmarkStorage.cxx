@@ -243,10 +243,10 @@ std::vector<double> frameRatios(FrameClock& clock, const std::vector<Candidate>&
   return best;
 }
 
-void print(const Scene& scene)
+void print(const Scene& scene, Candidates which)
 {
   LookupClock clock(scene.baked);
-  const std::vector<Candidate> candidates = makeCandidates(scene.baked);
+  const std::vector<Candidate> candidates = makeCandidates(scene.baked, which);
   FrameClock frames(scene.cloud);
   const std::vector<double> ratios = frameRatios(frames, candidates);
   for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -279,8 +279,12 @@ int main(int argc, char** argv)
 {
   try
   {
-    const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : DefaultCount;
-    std::vector<std::string> names(argv + std::min(argc, 2), argv + argc);
+    std::vector<std::string> names(argv + 1, argv + argc);
+    const bool brief = !names.empty() && names.front() == "--filter";
+    names.erase(names.begin(), names.begin() + (brief ? 1 : 0));
+    const std::size_t count =
+      names.empty() ? DefaultCount : std::strtoull(names.front().c_str(), nullptr, 10);
+    names.erase(names.begin(), names.begin() + (names.empty() ? 0 : 1));
     if (names.empty())
     {
       names = { "pack", "overlap", "gas", "shell", "foam" };
@@ -290,7 +294,7 @@ int main(int argc, char** argv)
          "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";
     for (const std::string& name : names)
     {
-      print(makeScene(name, count));
+      print(makeScene(name, count), brief ? Candidates::OfTheFilter : Candidates::All);
     }
     return EXIT_SUCCESS;
   }

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace po
@@ -44,15 +45,15 @@ TextureTable copyOf(const Baked& baked)
 }
 
 /// A table as bytes of UInt8Gamma2, and which row each particle has.
-struct ByteTable
+struct BytesOfBake
 {
   EncodedTable table;
   std::vector<std::int32_t> rowOf;
 };
 
-Candidate fromBytes(const Baked& baked, const std::string& name, ByteTable&& bytes, double size)
+Candidate fromBytes(const Baked& baked, const std::string& name, BytesOfBake&& bytes, double size)
 {
-  auto kept = std::make_shared<ByteTable>(std::move(bytes));
+  auto kept = std::make_shared<BytesOfBake>(std::move(bytes));
   Candidate candidate;
   candidate.name = name;
   candidate.bytes = size + IndexBytes * static_cast<double>(kept->rowOf.size());
@@ -74,7 +75,7 @@ Candidate fromBytes(const Baked& baked, const std::string& name, ByteTable&& byt
 
 Candidate plainBytes(const Baked& baked)
 {
-  ByteTable bytes;
+  BytesOfBake bytes;
   bytes.rowOf = baked.rowOf;
   bytes.table = encode(copyOf(baked), Encoding::UInt8Gamma2, bytes.rowOf, baked.maximum);
   const auto size = static_cast<double>(bytes.table.bytes.size());
@@ -88,7 +89,7 @@ struct Leaders
   std::vector<std::int32_t> of;
 };
 
-ByteTable byLeaders(const Baked& baked, const Leaders& leaders)
+BytesOfBake byLeaders(const Baked& baked, const Leaders& leaders)
 {
   TextureTable table(baked.resolution, leaders.rows.size());
   std::vector<std::int32_t> target;
@@ -96,7 +97,7 @@ ByteTable byLeaders(const Baked& baked, const Leaders& leaders)
   {
     target.push_back(table.insert(textureOf(baked, row)));
   }
-  ByteTable bytes;
+  BytesOfBake bytes;
   for (const std::int32_t row : baked.rowOf)
   {
     bytes.rowOf.push_back(
@@ -152,7 +153,7 @@ Candidate nearEqual(const Baked& baked, double allowed)
     }
     leaders.of.push_back(found);
   }
-  ByteTable bytes = byLeaders(baked, leaders);
+  BytesOfBake bytes = byLeaders(baked, leaders);
   const auto size = static_cast<double>(bytes.table.bytes.size());
   return fromBytes(baked, "8 bit, near-equal ones once", std::move(bytes), size);
 }
@@ -204,7 +205,7 @@ Candidate vectorQuantization(
       book[i] = count > 0 ? sums[i] / count : book[i];
     }
   }
-  ByteTable bytes;
+  BytesOfBake bytes;
   bytes.table.maximum = baked.maximum;
   std::transform(book.begin(), book.end(), std::back_inserter(bytes.table.bytes),
     [&](float v) { return encodeGamma2(static_cast<double>(v), baked.maximum); });
@@ -286,6 +287,106 @@ Candidate byPacker(
     IndexBytes * static_cast<double>(baked.rowOf.size());
   candidate.textures = std::make_shared<OcclusionTextures>(
     packed->textures, baked.resolution, packed->rowOf.data(), nullptr);
+  candidate.decode = [packed](std::size_t particle, float* texture)
+  { packed->textures->decode(static_cast<std::size_t>(packed->rowOf[particle]), texture); };
+  return candidate;
+}
+
+/// The first leader whose decoded texture differs from a texture by no more than is allowed, among
+/// those of nearly the same mean, which is necessary.
+class LeaderSearch
+{
+public:
+  LeaderSearch(std::vector<float> shares, double allowed)
+    : shares_(std::move(shares))
+    , allowed_(allowed)
+  {
+  }
+
+  /// @return its word, or -1
+  [[nodiscard]] std::int32_t find(const float* texture) const
+  {
+    constexpr std::size_t MostTried = 500; // of each mean
+    for (long cell = cellOf(texture) - 1, last = cell + 2; cell <= last; ++cell)
+    {
+      const auto known = byMean_.find(cell);
+      const std::size_t count = known == byMean_.end() ? 0 : known->second.size();
+      for (std::size_t i = count > MostTried ? count - MostTried : 0; i < count; ++i)
+      {
+        const Leader& leader = known->second[i];
+        const double square = allowed_ * allowed_;
+        if (squareDifference(shares_, texture, leader.texture.data(), square) <= square)
+        {
+          return leader.word;
+        }
+      }
+    }
+    return -1;
+  }
+
+  void add(std::int32_t word, std::vector<float> decoded)
+  {
+    const long cell = cellOf(decoded.data());
+    byMean_[cell].push_back({ word, std::move(decoded) });
+  }
+
+private:
+  struct Leader
+  {
+    std::int32_t word;
+    std::vector<float> texture;
+  };
+
+  [[nodiscard]] long cellOf(const float* texture) const
+  {
+    return std::lround(std::inner_product(shares_.begin(), shares_.end(), texture, 0.0) / allowed_);
+  }
+
+  std::vector<float> shares_;
+  double allowed_;
+  std::map<long, std::vector<Leader>> byMean_;
+};
+
+/// Packed textures, in whose place one that is there already is taken where it differs by no more
+/// than is allowed.
+Candidate packedNearEqual(
+  const Baked& baked, const std::string& name, const TexturePacker& packer, double allowed)
+{
+  auto packed = std::make_shared<Packed>();
+  packed->rowOf = baked.rowOf;
+  packed->table = packTable(copyOf(baked), packer, packed->rowOf);
+  packed->textures = std::make_shared<PackedTextures>(
+    packed->table.packed, packed->table.bytes.data(), static_cast<std::size_t>(packed->table.rows));
+  LeaderSearch leaders(texelShares(baked.resolution), allowed);
+  std::map<std::int32_t, std::int32_t> wordOfRow;
+  std::set<std::int32_t> kept;
+  for (std::size_t particle = 0; particle < packed->rowOf.size(); ++particle)
+  {
+    const auto [known, isNew] = wordOfRow.try_emplace(baked.rowOf[particle], -1);
+    if (isNew)
+    {
+      const float* texture = textureOf(baked, static_cast<std::size_t>(known->first));
+      known->second = leaders.find(texture);
+    }
+    if (known->second < 0)
+    {
+      known->second = packed->rowOf[particle];
+      std::vector<float> decoded(texelsOf(baked));
+      packed->textures->decode(static_cast<std::size_t>(known->second), decoded.data());
+      leaders.add(known->second, std::move(decoded));
+    }
+    packed->rowOf[particle] = known->second;
+    kept.insert(known->second);
+  }
+  Candidate candidate;
+  candidate.name = name;
+  candidate.bytes = IndexBytes * static_cast<double>(baked.rowOf.size()) +
+    static_cast<double>(sizeof(std::int16_t) * packed->table.packed.basis.numbers.size());
+  for (const std::int32_t word : kept)
+  {
+    candidate.bytes += static_cast<double>(
+      PackedFormat::WordBytes * packed->textures->lengthAt(static_cast<std::size_t>(word)));
+  }
   candidate.decode = [packed](std::size_t particle, float* texture)
   { packed->textures->decode(static_cast<std::size_t>(packed->rowOf[particle]), texture); };
   return candidate;
@@ -424,33 +525,20 @@ Candidate oneValue(const Baked& baked)
   { std::fill_n(texture, texelsOf(baked), baked.mean[particle]); };
   return candidate;
 }
-}
 
-Candidate uncompressed(const Baked& baked)
+/// What was tried and is not in the filter.
+void addStudied(
+  const Baked& baked, const TextureSample& sample, double allowed, std::vector<Candidate>& all)
 {
-  Candidate candidate;
-  candidate.name = "floats";
-  candidate.decode = [&baked](std::size_t particle, float* texture)
-  {
-    std::copy_n(
-      textureOf(baked, static_cast<std::size_t>(baked.rowOf[particle])), texelsOf(baked), texture);
-  };
-  return candidate;
-}
-
-std::vector<Candidate> makeCandidates(const Baked& baked)
-{
-  const double allowed = allowedDifference(Error, baked.noise);
-  const TextureSample sample = sampleTextures(baked.table, SampleSize, ProcessGroup::alone());
   const int resolution = baked.resolution;
   const double maximum = baked.maximum;
-  std::vector<Candidate> all;
-  all.push_back(plainBytes(baked));
   all.push_back(nearEqual(baked, Error));
-  all.push_back(oneValue(baked));
   all.push_back(
     byPacker(baked, "variable size, difference 0.01", SizePacker(resolution, maximum, Error)));
-  all.push_back(byPacker(baked, "**variable size**", SizePacker(resolution, maximum, allowed)));
+  all.push_back(packedNearEqual(baked, "variable size, near-equal ones once",
+    SizePacker(resolution, maximum, allowed), allowed));
+  all.push_back(packedNearEqual(baked, "compressed, near-equal ones once",
+    ComponentPacker(resolution, maximum, allowed, sample.values, sample.population), allowed));
   all.push_back(fourBits(baked));
   all.push_back(vectorQuantization(baked, sample.values, 256));
   all.push_back(vectorQuantization(baked, sample.values, 2048));
@@ -472,8 +560,36 @@ std::vector<Candidate> makeCandidates(const Baked& baked)
     FixedPacker(baked, firstComponents(basis, bits.size()), 1, bits)));
   all.push_back(byPacker(baked, "the same, length by texture, difference 0.01",
     ComponentPacker(resolution, maximum, Error, sample.values, sample.population)));
+}
+}
+
+Candidate uncompressed(const Baked& baked)
+{
+  Candidate candidate;
+  candidate.name = "floats";
+  candidate.decode = [&baked](std::size_t particle, float* texture)
+  {
+    std::copy_n(
+      textureOf(baked, static_cast<std::size_t>(baked.rowOf[particle])), texelsOf(baked), texture);
+  };
+  return candidate;
+}
+
+std::vector<Candidate> makeCandidates(const Baked& baked, Candidates which)
+{
+  const double allowed = allowedDifference(Error, baked.noise);
+  const TextureSample sample = sampleTextures(baked.table, SampleSize, ProcessGroup::alone());
+  std::vector<Candidate> all;
+  all.push_back(plainBytes(baked));
+  if (which == Candidates::All)
+  {
+    addStudied(baked, sample, allowed, all);
+  }
+  all.push_back(oneValue(baked));
+  all.push_back(
+    byPacker(baked, "**variable size**", SizePacker(baked.resolution, baked.maximum, allowed)));
   all.push_back(byPacker(baked, "**compressed**",
-    ComponentPacker(resolution, maximum, allowed, sample.values, sample.population)));
+    ComponentPacker(baked.resolution, baked.maximum, allowed, sample.values, sample.population)));
   for (Candidate& candidate : all)
   {
     candidate.timeFrames = candidate.name == all.front().name || candidate.name[0] == '*';
