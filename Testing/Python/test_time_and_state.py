@@ -165,7 +165,8 @@ FILTER = dict(RadiusFrom="Diameter", RadiusArray="radius", Density=2.0, RadiusSc
               Storage="Variable Size", StorageError=0.02, Seed=7,
               IdArray="radius", UseCache=1, CacheDirectory=CACHE.name, CacheSizeLimit=100)
 DISPLAY = dict(RadiusArray="radius", RadiusScale=0.8, ConstantRadius=0.3, ShadingMode="Ambient Occlusion",
-               OcclusionOnDiffuse=0, Shadows=1, LayersFile="layers.exr", LayersResolution=[320, 240])
+               OcclusionOnDiffuse=0, Shadows=1, LayersFile="layers.exr", LayersResolution=[320, 240],
+               TextureFile="textures.exr", TextureBudget=2.5)
 VIEW = dict(SilhouetteVisibility=0, SilhouetteThreshold=2.5, SilhouetteBackgroundDepth=30.0,
             SilhouetteColor=[1.0, 0.5, 0.25], SilhouetteOpacity=0.5)
 
