@@ -42,9 +42,7 @@ def aim_camera(view):
 
 
 def colour_by_damage(display, view):
-    ColorBy(display, ("POINTS", "damage"))
-    damage = GetColorTransferFunction("damage")
-    damage.ApplyPreset("Viridis (matplotlib)", True)
+    damage = scene.color_by(display, "damage")
     damage.RescaleTransferFunction(0, 1)
     display.SetScalarBarVisibility(view, True)
     bar = GetScalarBar(damage, view)

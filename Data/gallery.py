@@ -69,7 +69,7 @@ def show(view, path, array, azimuth, elevation, zoom):
     display = scene.show_spheres(baked, view, ambient=0.6, diffuse=0.6)
     display.SamplesPerPixel = 8
     if array:
-        ColorBy(display, ("POINTS", array))
+        scene.color_by(display, array)
         display.SetScalarBarVisibility(view, False)
     scene.aim_camera(view, elevation, azimuth, zoom)
     return display

@@ -22,8 +22,7 @@ def show(baked, view, color):
     display.SamplesPerPixel = 16
     display.SilhouetteVisibility = 1
     if color:
-        ColorBy(display, ("POINTS", color))
-        bar = GetScalarBar(GetColorTransferFunction(color), view)
+        bar = GetScalarBar(scene.color_by(display, color), view)
         bar.TitleColor = bar.LabelColor = [0, 0, 0]
         display.SetScalarBarVisibility(view, True)
     return display

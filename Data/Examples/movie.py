@@ -49,7 +49,7 @@ def make_movie(files, options):
     display.SamplesPerPixel = 8  # smooth edges
     display.SilhouetteVisibility = 1
     if options.color:
-        ColorBy(display, ("POINTS", options.color))
+        scene.color_by(display, options.color)
         display.RescaleTransferFunctionToDataRangeOverTime()
     GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     GetAnimationScene().GoToLast()  # where the particles are spread most

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the scripts share: a view for pictures on paper, a light from the side, spheres, a camera."""
+"""What the scripts share: a view for pictures on paper, a light from the side, spheres, colours, a camera."""
 from paraview.simple import *
 
 
@@ -36,6 +36,14 @@ def show_spheres(baked, view, ambient=0, diffuse=1):
     display.Ambient, display.Diffuse = ambient, diffuse
     display.OcclusionOnDiffuse = int(ambient == 0)
     return display
+
+
+def color_by(display, array):
+    """By a point array, with a colour map that grows evenly in lightness: for prints and colour-blind readers too."""
+    ColorBy(display, ("POINTS", array))
+    table = GetColorTransferFunction(array)
+    table.ApplyPreset("Viridis (matplotlib)", True)
+    return table
 
 
 def aim_camera(view, elevation, azimuth=0, zoom=1):

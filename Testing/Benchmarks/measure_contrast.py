@@ -15,6 +15,7 @@ import tempfile
 
 import numpy
 from paraview.simple import *
+from PIL import Image
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, "..", "..", "Data"), os.path.join(HERE, "..", "Python")]
@@ -62,7 +63,11 @@ def colours_of(preset, steps=16):
     table.RescaleTransferFunction(0, 1)
     client = table.SMProxy.GetClientSideObject()
     client.Build()
-    colours = numpy.array([client.GetColor(x) for x in numpy.linspace(0, 1, steps)])
+    colours = numpy.empty((steps, 3))
+    for colour, value in zip(colours, numpy.linspace(0, 1, steps)):
+        rgb = [0, 0, 0]
+        client.GetColor(value, rgb)
+        colour[:] = rgb
     Delete(table)
     return colours
 
@@ -85,6 +90,13 @@ def take(view, folder, name):
     return images.read(path) / 255
 
 
+def save_as_seen(picture, path):
+    """Beside the picture at `path`, one as each reader sees it."""
+    for reader in list(READERS)[1:]:
+        seen = encoded(seen_by(reader, picture.reshape(-1, 3))).reshape(picture.shape)[::-1]
+        Image.fromarray((255 * seen).round().astype("uint8")).save(path.replace(".png", f"-{reader}.png"))
+
+
 def contrast(reader, plain, lined, solid):
     """Of line and surroundings, where a line covers more than half of a pixel, as `solid` red and blue lines tell."""
     covered = numpy.abs(solid[0] - solid[1]).max(axis=2) > 0.5
@@ -94,7 +106,7 @@ def contrast(reader, plain, lined, solid):
 
 def print_lines(folder):
     view = demo.make_view()
-    baked = demo.bake(OpenDataFile(os.path.join(demo.ROOT, "Data", "bullet_1000.vtp")))
+    baked = SphereAmbientOcclusion(Input=OpenDataFile(os.path.join(demo.ROOT, "Data", "bullet_1000.vtp")))
     display = scene.show_spheres(baked, view, ambient=0.55, diffuse=0.6)
     demo.aim_camera(view)
     demo.colour_by_damage(display, view)
@@ -114,6 +126,7 @@ def print_lines(folder):
             for key, value in settings.items():
                 setattr(view, key, value)
             lined = take(view, folder, f"{background}-{style}")
+            save_as_seen(lined, os.path.join(folder, f"{background}-{style}.png"))
             ratios = [contrast(reader, plain, lined, solid) for reader in READERS]
             print(f"| {style} | {background} | " + " | ".join(f"{ratio:.1f}" for ratio in ratios) + " |")
 
