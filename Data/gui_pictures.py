@@ -30,7 +30,7 @@ view = GetActiveViewOrCreate("RenderView")
 made = {{}}
 
 def open_file():
-    made["particles"] = OpenDataFile({heap!r})
+    made["particles"] = OpenDataFile({heap!r}, registrationName="heap.vtp")
     Show(made["particles"], view)
     view.ResetActiveCameraToPositiveY()
     ResetCamera(view)
@@ -39,7 +39,7 @@ def open_file():
 
 def bake():
     baked = FindSource("SphereAmbientOcclusion1")
-    baked.Method, baked.SamplesPerTexel = "Reference", 4096
+    baked.Method, baked.SamplesPerTexel = "Reference", 256
     baked.UpdatePipeline()
 
 def shown():
@@ -116,13 +116,14 @@ def walk(session, save):
     """The steps of the README."""
     session.run("open_file")
     save("walk-open", session.grab().resize((WIDTH // 2, HEIGHT // 2), Image.LANCZOS))
+    session.press("mousemove", 80, 196, "click", 1)  # keys go to where the mouse was
     session.press("mousemove", 700, 600, "key", "ctrl+space")
     session.press("type", "AO")
-    save("walk-search", session.grab(465, 310, 825, 620))
+    save("walk-search", session.grab(455, 290, 815, 590))
     session.press("key", "Return")
     save("walk-filter", session.grab(0, 430, 290, 935))
     session.begin("bake")
-    time.sleep(5)
+    time.sleep(10)
     save("walk-progress", session.grab(380, HEIGHT - 35, 880, HEIGHT))
     session.display.click_along(HEIGHT - 15, 200, 700)  # the cross is among them
     session.wait("bake.done")
