@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin in pvbatch and in a pvserver that a pvpython client connects to, with remote and with local
-rendering: the same picture everywhere.
+rendering: the same picture everywhere, with textures that were baked and with those of a file.
 
 Two ranks with a part of the particles each draw the lines that one rank draws.
 
@@ -42,6 +42,13 @@ SaveScreenshot(r"{picture}", view, ImageResolution=[300, 200])
 display.LayersFile = r"{picture}.exr"  # by the process that draws: here all see the same files
 display.LayersResolution = [450, 300]
 display.SMProxy.InvokeCommand("WriteLayers")
+SaveData(r"{picture}-textures.exr", baked)
+Hide(baked, view)
+paged = Show(particles, view)  # the same textures, from the file
+paged.SetRepresentationType("Ray-Traced Spheres")
+paged.TextureFile = r"{picture}-textures.exr"
+ColorBy(paged, ("POINTS", "charge"))
+SaveScreenshot(r"{picture}-paged.png", view, ImageResolution=[300, 200])
 if port:
     Disconnect()
 """
@@ -101,9 +108,10 @@ def run_session(executable, folder, name, port=0, threshold=0):
                                   data=os.path.join(DATA, "molecule.vtp")))
     done = subprocess.run([executable, script], capture_output=True, text=True, timeout=100, check=False)
     # A server goes on with what it was asked for after its client has left.
-    complete = wait_for(picture) and wait_for(picture + ".exr")
+    complete = all(wait_for(picture + suffix) for suffix in ("", ".exr", "-paged.png"))
     if done.returncode != 0 or not complete or "ERR|" in done.stderr:
         raise SystemExit(f"{name} failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")
+    images.compare_files(picture + "-paged.png", picture, rms=0, outliers=0)
     return picture
 
 
