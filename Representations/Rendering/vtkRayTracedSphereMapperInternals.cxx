@@ -39,8 +39,9 @@ po::Style vtkRayTracedSphereMapper::Internals::styleOf(
   style.material.translucent = actor->HasTranslucentPolygonalGeometry();
   style.material.particleColors = this->Colors.rgba();
   style.material.colorsVersion = this->Colors.version();
-  style.textures = this->Input.textures();
-  style.texturesVersion = this->Input.texturesVersion();
+  style.textures = this->textures();
+  style.texturesVersion = this->Input.texturesVersion() + this->Paging.version();
+  style.waitForTextures = true;
   style.shadows = mapper->Shadows;
   return style;
 }
