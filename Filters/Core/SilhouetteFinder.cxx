@@ -224,53 +224,30 @@ std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const Silh
 {
   const int columns = depthTiles(image.width), rows = depthTiles(image.height);
   std::vector<int> searched;
-  for (int tile = 0; tile < columns * rows; ++tile)
+  std::vector<DepthRange> threeRows(static_cast<std::size_t>(columns));
+  for (int y = 0; y < rows; ++y)
   {
-    const int x = tile % columns, y = tile / columns;
-    const DepthRange range = rangeAround(ranges, columns, rows, x, y);
-    std::uint8_t& had = image.tileHasLines[static_cast<std::size_t>(tile)];
-    if (range.hasGeometry() && !rule.drawsNothing() && (!skipTiles || mayHaveEdge(rule, range)))
+    for (int x = 0; x < columns; ++x)
     {
-      searched.push_back(tile);
+      threeRows[static_cast<std::size_t>(x)] = rangeOf(ranges, columns, x, x + 1, y - 1, y + 2);
     }
-    else if (had != 0)
+    for (int x = 0; x < columns; ++x)
     {
-      clearTile(image, x, y);
-      had = 0;
+      const int tile = y * columns + x;
+      const DepthRange range = rangeOf(threeRows, columns, x - 1, x + 2, 0, 1);
+      std::uint8_t& had = image.tileHasLines[static_cast<std::size_t>(tile)];
+      if (range.hasGeometry() && !rule.drawsNothing() && (!skipTiles || mayHaveEdge(rule, range)))
+      {
+        searched.push_back(tile);
+      }
+      else if (had != 0)
+      {
+        clearTile(image, x, y);
+        had = 0;
+      }
     }
   }
   return searched;
-}
-
-void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts)
-{
-  const auto pixels = static_cast<std::size_t>(source.width()) * source.height();
-  if (image.width != source.width() || image.height != source.height())
-  {
-    image.width = source.width();
-    image.height = source.height();
-    image.strength.assign(pixels, 0);
-    image.tileHasLines.assign(
-      static_cast<std::size_t>(depthTiles(image.width)) * depthTiles(image.height), 0);
-  }
-  image.front.resize(findFronts ? pixels : 0);
-}
-
-void clearTile(SilhouetteImage& image, int tileX, int tileY)
-{
-  const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
-  for (int j = y; j < std::min(y + DepthTileSize, image.height); ++j)
-  {
-    float* row = image.strength.data() + static_cast<std::ptrdiff_t>(j) * image.width + x;
-    if (image.width - x >= DepthTileSize)
-    {
-      std::fill_n(row, DepthTileSize, 0.0F); // of a length that the compiler knows
-    }
-    else
-    {
-      std::fill_n(row, image.width - x, 0.0F);
-    }
-  }
 }
 
 SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRule& rule,

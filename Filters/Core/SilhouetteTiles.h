@@ -13,14 +13,15 @@
 /// The loop over tiles that all ways to draw silhouettes share.
 namespace po
 {
-/// The range of a tile and of the tiles around it, in an image of columns x rows tiles.
-[[nodiscard]] inline DepthRange rangeAround(
-  const std::vector<DepthRange>& ranges, int columns, int rows, int tileX, int tileY)
+/// The range of tiles [x0, x1) x [y0, y1) of an image of so many columns, as far as they lie in it.
+[[nodiscard]] inline DepthRange rangeOf(
+  const std::vector<DepthRange>& ranges, int columns, int x0, int x1, int y0, int y1)
 {
+  const int rows = static_cast<int>(ranges.size()) / columns;
   DepthRange range;
-  for (int y = std::max(0, tileY - 1); y < std::min(rows, tileY + 2); ++y)
+  for (int y = std::max(0, y0); y < std::min(rows, y1); ++y)
   {
-    for (int x = std::max(0, tileX - 1); x < std::min(columns, tileX + 2); ++x)
+    for (int x = std::max(0, x0); x < std::min(columns, x1); ++x)
     {
       range.add(ranges[static_cast<std::size_t>(y) * columns + x]);
     }
@@ -46,13 +47,13 @@ SilhouetteCounters paintTiles(const DepthSource& source, const SilhouetteRule& r
   SilhouetteImage& image, const SilhouetteOptions& options, const MakePainter& makePainter)
 {
   resizeFor(image, source, options.findFronts);
-  const int columns = depthTiles(image.width), rows = depthTiles(image.height);
+  const int columns = depthTiles(image.width);
   const std::vector<DepthRange>& ranges = source.ranges();
   const std::vector<int> searched = tilesToSearch(ranges, rule, image, options.skipTiles);
   const auto paintTile = [&](auto& painter, int tile)
   {
     const int x = tile % columns, y = tile / columns;
-    const DepthRange range = rangeAround(ranges, columns, rows, x, y);
+    const DepthRange range = rangeOf(ranges, columns, x - 1, x + 2, y - 1, y + 2);
     std::uint8_t& had = image.tileHasLines[static_cast<std::size_t>(tile)];
     const bool lines = painter.paint(x, y, range, image);
     if (!lines && had != 0)
