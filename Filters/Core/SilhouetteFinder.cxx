@@ -250,6 +250,37 @@ std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const Silh
   return searched;
 }
 
+void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts)
+{
+  const auto pixels = static_cast<std::size_t>(source.width()) * source.height();
+  if (image.width != source.width() || image.height != source.height())
+  {
+    image.width = source.width();
+    image.height = source.height();
+    image.strength.assign(pixels, 0);
+    image.tileHasLines.assign(
+      static_cast<std::size_t>(depthTiles(image.width)) * depthTiles(image.height), 0);
+  }
+  image.front.resize(findFronts ? pixels : 0);
+}
+
+void clearTile(SilhouetteImage& image, int tileX, int tileY)
+{
+  const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
+  for (int j = y; j < std::min(y + DepthTileSize, image.height); ++j)
+  {
+    float* row = image.strength.data() + static_cast<std::ptrdiff_t>(j) * image.width + x;
+    if (image.width - x >= DepthTileSize)
+    {
+      std::fill_n(row, DepthTileSize, 0.0F); // of a length that the compiler knows
+    }
+    else
+    {
+      std::fill_n(row, image.width - x, 0.0F);
+    }
+  }
+}
+
 SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRule& rule,
   SilhouetteImage& image, const SilhouetteOptions& options)
 {
