@@ -23,6 +23,9 @@ inline constexpr const char* ParametersArray = "AmbientOcclusionParameters";
 inline constexpr const char* UInt8Gamma2 = "UInt8Gamma2";
 inline constexpr const char* Float32Linear = "Float32Linear";
 
+/// Is "1" where the textures hold direct light too: pictures must not add any.
+inline constexpr const char* BakedLightParameter = "bakeLight";
+
 /// Values of the parameter "storage"; without it the storage is Full.
 inline constexpr const char* FullStorage = "Full";
 inline constexpr const char* VariableSizeStorage = "VariableSize";

@@ -14,7 +14,7 @@
 namespace
 {
 constexpr const char* Settings[] = { "TextureResolution", "SamplesPerTexel", "TargetError",
-  "Method", "Encoding" };
+  "Method", "Encoding", "BakeLight" };
 
 int chosen(vtkSMProxy* proxy, const char* name)
 {
@@ -56,6 +56,10 @@ void pqBakeEstimate::refresh()
   work.settings.textureResolution = chosen(this->proxy(), "TextureResolution");
   work.settings.samplesPerTexel = chosen(this->proxy(), "SamplesPerTexel");
   work.settings.encoding = static_cast<po::Encoding>(chosen(this->proxy(), "Encoding"));
+  if (chosen(this->proxy(), "BakeLight") != 0)
+  {
+    work.settings.light.emplace();
+  }
   work.targetError = vtkSMUncheckedPropertyHelper(this->proxy(), "TargetError").GetAsDouble();
   const std::string text = po::describe(po::estimateCost(work), work.particles,
     static_cast<int>(told(this->proxy(), "NumberOfCores")), told(this->proxy(), "FreeMemory"));
