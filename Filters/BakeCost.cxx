@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 namespace po
@@ -95,14 +96,25 @@ std::string amount(double bytes)
                      : format("%.1f GB", bytes / 1e9);
 }
 
-std::string time(double seconds)
+std::string time(double seconds, int cores)
 {
-  if (seconds * Spread < 1.5)
+  const std::string on = " on " + std::to_string(cores) + (cores == 1 ? " core" : " cores");
+  const double elapsed = seconds / cores;
+  if (elapsed * Spread < 1.5)
   {
-    return "About a second";
+    return "A second" + on;
   }
-  return "About " + duration(seconds) + " (" + duration(seconds / Spread) + " to " +
-    duration(seconds * Spread) + ")";
+  return "About " + duration(elapsed) + on + "\n(" + duration(elapsed / Spread) + " to " +
+    duration(elapsed * Spread) + ")";
+}
+
+/// All texels and the row of a texture; the storages between only ever take less.
+double textureMemoryOf(const BakeWork& work)
+{
+  const double side = work.settings.textureResolution;
+  const double texel = work.settings.encoding == Encoding::Float32Linear ? 4 : 1;
+  const double texels = work.settings.storage == Storage::OneValue ? 0 : side * side * texel;
+  return static_cast<double>(work.particles) * (texels + sizeof(std::int32_t));
 }
 }
 
@@ -111,7 +123,9 @@ BakeCost estimateCost(const BakeWork& work)
   const double side = work.settings.textureResolution;
   const double texels = side * side;
   const double seconds = occlusionSeconds(work, texels) + lightSeconds(work, texels);
-  return { work.targetError > 0 ? 0 : seconds, memoryOf(work) };
+  const Storage storage = work.settings.storage;
+  return { work.targetError > 0 ? 0 : seconds, memoryOf(work), textureMemoryOf(work),
+    storage == Storage::VariableSize || storage == Storage::Compressed };
 }
 
 std::string describe(const BakeCost& cost, std::size_t particles, int cores, double freeBytes)
@@ -120,12 +134,9 @@ std::string describe(const BakeCost& cost, std::size_t particles, int cores, dou
   {
     return {};
   }
-  const std::string on = " on " + std::to_string(cores) + (cores == 1 ? " core" : " cores") +
-    " for " + std::to_string(particles) + " particles; ";
-  const std::string memory = "at most " + amount(cost.bytes) + " of memory, " + amount(freeBytes) +
-    (cost.bytes > freeBytes ? " are free: too little" : " are free");
-  return (cost.coreSeconds > 0 ? time(cost.coreSeconds / cores)
-                               : "As long as the target error takes") +
-    on + memory;
+  return (cost.coreSeconds > 0 ? time(cost.coreSeconds, cores) : "Time: by Target Error") +
+    "\nUses up to " + amount(cost.bytes) + "\n(" + amount(freeBytes) +
+    (cost.bytes > freeBytes ? " free: too little)" : " free)") +
+    (cost.texturesPacked ? "\nKeeps less than " : "\nKeeps up to ") + amount(cost.textureBytes);
 }
 }

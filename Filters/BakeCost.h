@@ -23,8 +23,10 @@ struct BakeWork
 
 struct BakeCost
 {
-  double coreSeconds = 0; ///< 0: not known beforehand, as with a target error
-  double bytes = 0;       ///< upper bound of the memory
+  double coreSeconds = 0;      ///< 0: not known beforehand, as with a target error
+  double bytes = 0;            ///< upper bound of the memory while it bakes
+  double textureBytes = 0;     ///< upper bound of the textures that stay
+  bool texturesPacked = false; ///< whether they mostly take far less
 };
 
 /// Seconds of one core and memory of a bake.
@@ -37,8 +39,9 @@ struct BakeCost
 /// Distances, occluders and the spread of radii (8 times the time at 1:10,000) are not looked at.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT BakeCost estimateCost(const BakeWork& work);
 
-/// The estimate in words, for a machine with that many cores and so much free memory in bytes;
-/// empty where there are no particles.
+/// The estimate in words, for a machine with that many cores and so much free memory in bytes: in
+/// lines of at most 24 characters, since ParaView's panel is narrow. Empty where there are no
+/// particles.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::string describe(
   const BakeCost& cost, std::size_t particles, int cores, double freeBytes);
 }

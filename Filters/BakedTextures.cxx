@@ -97,8 +97,7 @@ TableFormat readFormat(vtkFieldData* fields)
     }
   }
   format.packed = readPacked(parameters, fields);
-  format.hasLight =
-    parameters.has(BakedLightParameter) && parameters.getInteger(BakedLightParameter) != 0;
+  format.hasLight = parameters.hasBakedLight();
   if (format.packed && !format.bytes)
   {
     fail(ParametersArray, "names an encoding in which textures have one length");

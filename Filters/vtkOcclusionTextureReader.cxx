@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkOcclusionTextureReader.h"
 
-#include "Gamma2.h"
-#include "GeometryHash.h"
+#include "EncodedTextureFile.h"
 #include "OcclusionParameters.h"
 #include "OcclusionTextureFile.h"
 
@@ -15,13 +14,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <new>
-#include <stdexcept>
-#include <vector>
 
 vtkStandardNewMacro(vtkOcclusionTextureReader);
 
@@ -29,71 +25,36 @@ namespace
 {
 using Progress = std::function<void(double)>;
 
-template <typename Array>
-vtkSmartPointer<Array> newTable(const po::OcclusionTextureFile& file)
+vtkSmartPointer<vtkDataArray> newTable(const po::EncodedTextureFile& textures)
 {
-  auto table = vtkSmartPointer<Array>::New();
+  const po::TexelFormat& format = textures.format();
+  vtkSmartPointer<vtkDataArray> table;
+  table.TakeReference(vtkDataArray::CreateDataArray(format.bytes ? VTK_UNSIGNED_CHAR : VTK_FLOAT));
   table->SetName(po::TextureTableArray);
-  table->SetNumberOfComponents(file.resolution() * file.resolution());
-  table->SetNumberOfTuples(file.textureCount());
+  table->SetNumberOfComponents(format.resolution * format.resolution);
+  table->SetNumberOfTuples(textures.file().textureCount());
   return table;
 }
 
 /// Reads texture by texture: no second copy of the table is held.
-void readEachTexture(po::OcclusionTextureFile& file, const Progress& progress,
-  const std::function<void(vtkIdType row)>& read)
+vtkSmartPointer<vtkDataArray> readTable(
+  const po::EncodedTextureFile& textures, const Progress& progress)
 {
-  for (vtkIdType row = 0; row < file.textureCount(); ++row)
+  vtkSmartPointer<vtkDataArray> table = newTable(textures);
+  const vtkIdType rows = table->GetNumberOfTuples();
+  for (vtkIdType row = 0; row < rows; ++row)
   {
     if (row % 1024 == 0)
     {
-      progress(static_cast<double>(row) / static_cast<double>(file.textureCount()));
+      progress(static_cast<double>(row) / static_cast<double>(rows));
     }
-    read(row);
+    textures.read(
+      static_cast<std::int32_t>(row), table->GetVoidPointer(row * table->GetNumberOfComponents()));
   }
-}
-
-vtkSmartPointer<vtkDataArray> readFloats(po::OcclusionTextureFile& file, const Progress& progress)
-{
-  auto table = newTable<vtkFloatArray>(file);
-  const vtkIdType size = table->GetNumberOfComponents();
-  readEachTexture(
-    file, progress, [&](vtkIdType row) { file.readTexture(row, table->GetPointer(row * size)); });
   return table;
 }
 
-vtkSmartPointer<vtkDataArray> readBytes(
-  po::OcclusionTextureFile& file, double maximum, const Progress& progress)
-{
-  auto table = newTable<vtkUnsignedCharArray>(file);
-  const vtkIdType size = table->GetNumberOfComponents();
-  std::vector<float> texels(size);
-  readEachTexture(file, progress,
-    [&](vtkIdType row)
-    {
-      file.readTexture(row, texels.data());
-      std::transform(texels.begin(), texels.end(), table->GetPointer(row * size),
-        [maximum](float value) { return po::encodeGamma2(value, maximum); });
-    });
-  return table;
-}
-
-vtkSmartPointer<vtkDataArray> readTable(po::OcclusionTextureFile& file, const Progress& progress)
-{
-  const std::string& encoding = file.parameters().get("encoding");
-  if (encoding == po::UInt8Gamma2)
-  {
-    return readBytes(file, file.parameters().getDouble("maximum"), progress);
-  }
-  if (encoding == po::Float32Linear)
-  {
-    return readFloats(file, progress);
-  }
-  throw std::runtime_error("the textures are encoded as \"" + encoding +
-    "\", which this version does not know; use a newer version.");
-}
-
-void addParticleArrays(po::OcclusionTextureFile& file, vtkPointData* pointData)
+void addParticleArrays(const po::OcclusionTextureFile& file, vtkPointData* pointData)
 {
   vtkNew<vtkFloatArray> means;
   means->SetName(po::OcclusionArray);
@@ -106,32 +67,6 @@ void addParticleArrays(po::OcclusionTextureFile& file, vtkPointData* pointData)
   pointData->AddArray(rows);
 }
 
-void requireSameParticles(
-  const std::string& fileName, const po::OcclusionTextureFile& file, vtkPolyData* input)
-{
-  if (input->GetNumberOfPoints() != file.particleCount())
-  {
-    throw std::runtime_error("\"" + fileName + "\" is for " + std::to_string(file.particleCount()) +
-      " particles, but the input has " + std::to_string(input->GetNumberOfPoints()) +
-      " points; choose the data set that was baked, before any filter that removes points.");
-  }
-}
-
-/// What is wrong with the particles that textures are loaded onto, or nothing.
-std::string differenceOf(
-  const std::string& fileName, const po::OcclusionTextureFile& file, vtkPolyData* input)
-{
-  const po::OcclusionParameters& parameters = file.parameters();
-  const std::string radii = parameters.has("radiusArray") ? parameters.get("radiusArray") : "";
-  if (file.geometry().empty() || file.geometry() == po::hashGeometry(*input, radii))
-  {
-    return {};
-  }
-  return "The textures of \"" + fileName +
-    "\" were saved for particles of other positions, radii or order: the occlusion shown may be "
-    "wrong. Choose the data set and time step that was baked, or bake again.";
-}
-
 /// Everything is read into `result` first, so that a failure leaves nothing half-read in the
 /// output.
 /// Returns a warning or nothing.
@@ -139,17 +74,16 @@ std::string readOnto(
   const std::string& fileName, vtkPolyData* input, vtkPolyData* output, const Progress& progress)
 {
   std::string warning;
-  po::OcclusionTextureFile file(fileName);
+  const po::EncodedTextureFile textures(fileName);
   vtkNew<vtkPolyData> result;
   if (input)
   {
-    requireSameParticles(fileName, file, input);
-    warning = differenceOf(fileName, file, input);
+    warning = textures.checkParticles(*input);
     result->ShallowCopy(input);
-    addParticleArrays(file, result->GetPointData());
+    addParticleArrays(textures.file(), result->GetPointData());
   }
-  result->GetFieldData()->AddArray(readTable(file, progress));
-  file.parameters().toFieldData(result->GetFieldData());
+  result->GetFieldData()->AddArray(readTable(textures, progress));
+  textures.file().parameters().toFieldData(result->GetFieldData());
   output->ShallowCopy(result);
   return warning;
 }

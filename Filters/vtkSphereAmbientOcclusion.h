@@ -372,13 +372,9 @@ public:
   bool GetLoadedFromCache();
   ///@}
 
-  ///@{
   /// What an execution would take: time and memory in words, for the particles of this process as
-  /// they were last read; empty where there are none yet. And what it is estimated for.
+  /// they were last read, and for its cores and free memory; empty where there are none yet.
   const char* GetBakeEstimate();
-  int GetNumberOfCores();
-  double GetFreeMemory(); ///< bytes
-  ///@}
 
 protected:
   vtkSphereAmbientOcclusion();

@@ -7,11 +7,10 @@
 #include "BakeCost.h"
 #include "BakeParameters.h"
 #include "BakedData.h"
-#include "FreeMemory.h"
 
+#include "vtkBakeResources.h"
+#include "vtkNew.h"
 #include "vtkPointSet.h"
-
-#include <tbb/task_arena.h>
 
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticles()
 {
@@ -153,17 +152,8 @@ const char* vtkSphereAmbientOcclusion::GetBakeEstimate()
     work.settings.light.emplace();
   }
   work.targetError = this->TargetError;
-  this->Impl->Estimate = po::describe(
-    po::estimateCost(work), work.particles, this->GetNumberOfCores(), this->GetFreeMemory());
+  const vtkNew<vtkBakeResources> resources;
+  this->Impl->Estimate = po::describe(po::estimateCost(work), work.particles,
+    resources->GetNumberOfCores(), resources->GetFreeMemory());
   return this->Impl->Estimate.c_str();
-}
-
-int vtkSphereAmbientOcclusion::GetNumberOfCores()
-{
-  return tbb::this_task_arena::max_concurrency();
-}
-
-double vtkSphereAmbientOcclusion::GetFreeMemory()
-{
-  return po::freeMemory();
 }

@@ -12,7 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 # sanitizer one test of each estimator is enough beside the frames, and nothing takes a second only.
 declare -A long_tests=(
   [asan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|Thousand|AbortsLeave|EveryAllocation'
-  [tsan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|WithinASecond|Aborts/Embree|Embree.*(SameBits|Closed)'
+  [tsan]='AgreesWith|Promise|HasNoBias|IsAsGoodAs|Pilot|RefinesAs|TargetError|WithATarget|Independent|AHundredAtRandomMoments.*Embree|EmbreeEstimator.*(SameBits|Closed)'
 )
 presets=()
 for argument in "$@"; do

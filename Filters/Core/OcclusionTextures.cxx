@@ -9,21 +9,18 @@ namespace po
 {
 OcclusionTextures::OcclusionTextures(int resolution, const std::uint8_t* bytes, double maximum,
   const std::int32_t* rows, const float* means)
-  : resolution_(resolution)
-  , bytes_(bytes)
+  : format_{ resolution, true, maximum }
+  , texels_(bytes)
   , rows_(rows)
   , means_(means)
 {
-  for (std::size_t code = 0; code < decoded_.size(); ++code)
-  {
-    decoded_[code] = static_cast<float>(decodeGamma2(static_cast<std::uint8_t>(code), maximum));
-  }
+  decodeBytes();
 }
 
 OcclusionTextures::OcclusionTextures(
   int resolution, const float* values, const std::int32_t* rows, const float* means)
-  : resolution_(resolution)
-  , values_(values)
+  : format_{ resolution, false }
+  , texels_(values)
   , rows_(rows)
   , means_(means)
 {
@@ -31,11 +28,30 @@ OcclusionTextures::OcclusionTextures(
 
 OcclusionTextures::OcclusionTextures(std::shared_ptr<const PackedTextures> packed, int resolution,
   const std::int32_t* rows, const float* means)
-  : resolution_(resolution)
+  : format_{ resolution }
   , packed_(std::move(packed))
   , rows_(rows)
   , means_(means)
 {
+}
+
+OcclusionTextures::OcclusionTextures(std::shared_ptr<PagedTextures> paged,
+  const TexelFormat& format, const std::int32_t* rows, const float* means)
+  : format_(format)
+  , paged_(std::move(paged))
+  , rows_(rows)
+  , means_(means)
+{
+  decodeBytes();
+}
+
+void OcclusionTextures::decodeBytes()
+{
+  for (std::size_t code = 0; code < decoded_.size(); ++code)
+  {
+    decoded_[code] =
+      static_cast<float>(decodeGamma2(static_cast<std::uint8_t>(code), format_.maximum));
+  }
 }
 
 float OcclusionTextures::at(std::size_t particle, Vec3f direction) const
@@ -65,7 +81,7 @@ void OcclusionTextures::lookUp(
     lookup.y[i] = direction.y;
     lookup.z[i] = direction.z;
   }
-  findTexels(resolution_, lookup);
+  findTexels(format_.resolution, lookup);
   packed_ ? lookUpPacked(particles, count, lookup, values)
           : lookUpTexels(particles, count, lookup, values);
 }
@@ -75,15 +91,15 @@ void OcclusionTextures::lookUpTexels(
 {
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (!hasTexture(particles[i]))
+    const std::int32_t texture = rowOf(particles[i]);
+    const void* texels = texture < 0 ? nullptr : texelsOf(texture);
+    if (!texels)
     {
       continue;
     }
-    const std::size_t first =
-      static_cast<std::size_t>(rows_[particles[i]]) * texelIndex(resolution_, resolution_, 0);
     const auto row = [&](std::int32_t j)
     {
-      const float a = texel(first, j, lookup.column0[i]), b = texel(first, j, lookup.column1[i]);
+      const float a = texel(texels, j, lookup.column0[i]), b = texel(texels, j, lookup.column1[i]);
       return a + lookup.columnWeight[i] * (b - a);
     };
     const float a = row(lookup.row0[i]), b = row(lookup.row1[i]);
@@ -98,9 +114,9 @@ void OcclusionTextures::lookUpPacked(
   std::size_t textures = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
-    if (hasTexture(particles[i]))
+    if (rowOf(particles[i]) >= 0)
     {
-      firsts[textures] = static_cast<std::size_t>(rows_[particles[i]]);
+      firsts[textures] = static_cast<std::size_t>(rowOf(particles[i]));
       lanes[textures++] = i;
     }
   }

@@ -3,6 +3,7 @@
 #define po_OcclusionTextures_h
 
 #include "PackedTextures.h"
+#include "PagedTextures.h"
 #include "TexelLookup.h"
 #include "TexelMap.h"
 #include "Vec3.h"
@@ -14,6 +15,19 @@
 
 namespace po
 {
+/// How the texels of textures of one length are stored.
+struct TexelFormat
+{
+  int resolution = 0; ///< T: a texture has T * T texels, see TexelMap.h
+  bool bytes = true;  ///< a byte a texel, for maximum * (byte / 255)^2; else floats, as they are
+  double maximum = 1; ///< of bytes
+
+  [[nodiscard]] std::size_t textureBytes() const
+  {
+    return texelIndex(resolution, resolution, 0) * (bytes ? 1 : sizeof(float));
+  }
+};
+
 /// A table of baked textures and which particle has which, as the renderer reads it. It refers to
 /// arrays of the caller.
 class OcclusionTextures
@@ -43,8 +57,22 @@ public:
   OcclusionTextures(std::shared_ptr<const PackedTextures> packed, int resolution,
     const std::int32_t* rows, const float* means);
 
+  /// Textures of which only some are in memory: the particles of the others have only their means
+  /// until they are.
+  OcclusionTextures(std::shared_ptr<PagedTextures> paged, const TexelFormat& format,
+    const std::int32_t* rows, const float* means);
+
   /// Is every value 1?
-  [[nodiscard]] bool empty() const { return !bytes_ && !values_ && !packed_ && !means_; }
+  [[nodiscard]] bool empty() const { return !texels_ && !packed_ && !paged_ && !means_; }
+
+  /// Where textures come from that are loaded while they are seen; null if all are there.
+  [[nodiscard]] const std::shared_ptr<PagedTextures>& paged() const { return paged_; }
+
+  /// Texture of a particle; negative: it has only its mean.
+  [[nodiscard]] std::int32_t rowOf(std::int64_t particle) const
+  {
+    return rows_ ? rows_[particle] : -1;
+  }
 
   /// Bilinear value where `direction` (of any length) leaves the particle's centre. The texels are
   /// decoded first, so that the interpolation is one of light, not of code values.
@@ -64,21 +92,27 @@ private:
   void lookUpPacked(const std::int64_t* particles, std::size_t count, const TexelLookup& lookup,
     float* values) const;
 
-  [[nodiscard]] bool hasTexture(std::int64_t particle) const
+  /// First texel of a texture, or null if it is not in memory.
+  [[nodiscard]] const void* texelsOf(std::int32_t row) const
   {
-    return rows_ && rows_[particle] >= 0;
+    return paged_ ? paged_->find(row)
+                  : static_cast<const std::byte*>(texels_) +
+        static_cast<std::size_t>(row) * format_.textureBytes();
   }
 
-  [[nodiscard]] float texel(std::size_t first, std::int32_t row, std::int32_t column) const
+  [[nodiscard]] float texel(const void* texels, std::int32_t row, std::int32_t column) const
   {
-    const std::size_t i = first + texelIndex(resolution_, row, column);
-    return bytes_ ? decoded_[bytes_[i]] : values_[i];
+    const std::size_t i = texelIndex(format_.resolution, row, column);
+    return format_.bytes ? decoded_[static_cast<const std::uint8_t*>(texels)[i]]
+                         : static_cast<const float*>(texels)[i];
   }
 
-  int resolution_ = 0;
-  const std::uint8_t* bytes_ = nullptr;
-  const float* values_ = nullptr;
+  void decodeBytes();
+
+  TexelFormat format_;
+  const void* texels_ = nullptr; ///< of all textures, one after the other
   std::shared_ptr<const PackedTextures> packed_;
+  std::shared_ptr<PagedTextures> paged_;
   const std::int32_t* rows_ = nullptr;
   const float* means_ = nullptr;
   std::array<float, 256> decoded_{};

@@ -9,6 +9,11 @@ namespace po
 {
 namespace
 {
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Writes the seconds of its own life to a variable.
 class Stopwatch
 {
@@ -17,10 +22,7 @@ public:
     : seconds_(seconds)
   {
   }
-  ~Stopwatch()
-  {
-    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  ~Stopwatch() { seconds_ = secondsSince(start_); }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
@@ -95,6 +97,8 @@ void SphereRenderer::forgetFrame()
   isShaded_ = false;
   first_.shadowLights.clear();
   behind_.clear();
+  isNewView_ = true;
+  tracedSample_ = 0;
 }
 
 FrameSettings SphereRenderer::settings(SamplePlace place) const
@@ -189,19 +193,65 @@ void SphereRenderer::shadeLayer(FrameLayer& layer)
 
 void SphereRenderer::shade(const Style& style)
 {
-  if (isShaded_ && sameStyle(style, style_))
+  const bool arrived = style.textures.paged() && style.textures.paged()->collect() > 0;
+  const bool canAdd = lacksTextures_ && (arrived || style.waitForTextures);
+  if (isShaded_ && !canAdd && sameStyle(style, style_))
   {
     return;
   }
   style_ = style;
   const Stopwatch watch(statistics_.shadeSeconds);
+  beginPicture();
+  statistics_.missingTextures = fetchTextures(first_.frame);
   shadeLayer(first_);
   shadeBehind();
+  lacksTextures_ = isWaiting();
   ++statistics_.framesShaded;
   average_.clear();
   rimDepth_.clear();
   samples_ = 1;
   isShaded_ = true;
+}
+
+void SphereRenderer::beginPicture()
+{
+  if (isNewView_ && style_.textures.paged())
+  {
+    style_.textures.paged()->beginView();
+  }
+  isNewView_ = false;
+}
+
+/// Asks for the textures that a frame shows, where they are loaded while they are seen.
+/// @return how many are missing
+std::size_t SphereRenderer::fetchTextures(const TracedFrame& frame)
+{
+  const std::shared_ptr<PagedTextures>& paged = style_.textures.paged();
+  if (!paged)
+  {
+    return 0;
+  }
+  const std::vector<std::int32_t>& rows =
+    demand_.of(frame, cloud_.sourceIds, style_.textures, paged->size());
+  const std::size_t missing = paged->demand(rows);
+  if (!style_.waitForTextures || !paged->isLoading())
+  {
+    return missing;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  paged->wait();
+  statistics_.waitSeconds += secondsSince(start);
+  return paged->demand(rows);
+}
+
+bool SphereRenderer::isWaiting() const
+{
+  return style_.textures.paged() && style_.textures.paged()->isLoading();
+}
+
+bool SphereRenderer::canGoOn() const
+{
+  return !isWaiting() || style_.textures.paged()->hasNews();
 }
 
 void SphereRenderer::shadeBehind()
@@ -222,6 +272,7 @@ void SphereRenderer::shadeBehind()
       behind_.resize(number);
       return;
     }
+    statistics_.missingTextures += fetchTextures(behind_[number].frame);
     shadeLayer(behind_[number]);
   }
 }
@@ -252,25 +303,40 @@ bool SphereRenderer::traceLayer(
 
 void SphereRenderer::refine(int samples)
 {
-  if (style_.material.translucent || samples_ >= samples)
+  if (style_.material.translucent || samples_ >= samples || (lacksTextures_ && isWaiting()))
   {
     return;
   }
-  if (samples_ == 1)
+  if (rimDepth_.empty())
   {
     average_.add(first_.rgba);
     rimDepth_.assign(first_.frame.pixels(), 2);
   }
   for (; samples_ < samples; ++samples_)
   {
-    (void)traceFrame(*scene_, *rays_, settings(samplePlace(samples_)), sample_.frame);
-    sample_.shadowLights.clear();
+    traceSample();
+    fetchTextures(sample_.frame);
+    if (isWaiting())
+    {
+      break;
+    }
     shadeLayer(sample_);
     average_.add(sample_.rgba);
     addRims(sample_.frame);
-    ++statistics_.samplesTraced;
+    ++statistics_.samplesAdded;
   }
   average_.write(first_.rgba);
+}
+
+/// The next sample, unless it was traced before and waits for textures.
+void SphereRenderer::traceSample()
+{
+  if (tracedSample_ != samples_)
+  {
+    (void)traceFrame(*scene_, *rays_, settings(samplePlace(samples_)), sample_.frame);
+    sample_.shadowLights.clear();
+    tracedSample_ = samples_;
+  }
 }
 
 void SphereRenderer::addRims(const TracedFrame& sample)

@@ -6,6 +6,7 @@
 #include "SceneCache.h"
 #include "Shading.h"
 #include "SphereCloud.h"
+#include "TextureDemand.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,11 +23,13 @@ struct RenderStatistics
   TraceCounters trace;    ///< of the last traced frame
   ShadowCounters shadows; ///< the last time shadows were traced, over the lights that had moved
   std::size_t framesTraced = 0;
-  std::size_t layersTraced = 0;  ///< behind frames
-  std::size_t samplesTraced = 0; ///< frames for smooth edges
+  std::size_t layersTraced = 0; ///< behind frames
+  std::size_t samplesAdded = 0; ///< frames for smooth edges
   std::size_t framesShaded = 0;
   std::size_t shadowsTraced = 0; ///< masks of single lights
   double buildSeconds = 0, traceSeconds = 0, shadowSeconds = 0, shadeSeconds = 0;
+  std::size_t missingTextures = 0; ///< in the last shaded frame, for which means are shown
+  double waitSeconds = 0;          ///< for textures, in all
 };
 
 /// How a traced frame is to look. It refers to arrays of the caller.
@@ -36,6 +39,7 @@ struct Style
   OcclusionTextures textures;
   std::uint64_t texturesVersion = 0; ///< another number for other textures
   std::vector<Light> lights;
+  bool waitForTextures = false; ///< of those that are loaded while they are seen; else means show
   bool shadows = false;
   int maximumLayers = 16; ///< of translucent spheres, one behind the other
 };
@@ -54,6 +58,9 @@ struct FrameLayer
 ///
 /// Steps: scene (spheres), frame (view, size, placement, hidden spheres), shadows (a light's
 /// geometry), colours, layers behind translucent spheres, samples for smooth edges.
+///
+/// Textures that are loaded while they are seen (OcclusionTextures::paged()) are asked for when a
+/// frame is shaded, and the frame is shaded again when they have arrived.
 class SphereRenderer
 {
 public:
@@ -81,16 +88,24 @@ public:
   bool trace(const Camera& camera, const Matrix4& modelToWorld);
 
   /// Colours the traced frame, and what is seen behind translucent spheres, unless the last time
-  /// was in the same style. Masks of lights that stay are kept.
+  /// was in the same style and no texture of it has arrived since. Masks of lights that stay are
+  /// kept.
   void shade(const Style& style);
 
   /// Adds rays through other places of the pixels until each pixel has had `samples` of them, and
   /// averages. Only after shade(), and not for translucent spheres. Depth, normals and ids stay
-  /// those of the pixels' centres.
+  /// those of the pixels' centres. Unless the style waits for textures, samples are added only as
+  /// far as all of their textures are there.
   void refine(int samples);
 
   /// Rays a pixel in the averaged colours.
   [[nodiscard]] int samples() const { return samples_; }
+
+  /// Are textures on their way, which the next shade() and refine() will show?
+  [[nodiscard]] bool isWaiting() const;
+
+  /// Has any of them come, if there are some on their way?
+  [[nodiscard]] bool canGoOn() const;
 
   /// Do the results below belong together? Not before the first shade, nor after new spheres or a
   /// new view until they are shaded.
@@ -115,10 +130,13 @@ public:
 private:
   void buildScene();
   void forgetFrame();
+  void beginPicture();
+  std::size_t fetchTextures(const TracedFrame& frame);
   void castShadows(FrameLayer& layer);
   void shadeLayer(FrameLayer& layer);
   void shadeBehind();
   bool traceLayer(const FrameLayer& inFront, std::size_t number, std::vector<std::uint8_t> wanted);
+  void traceSample();
   void addRims(const TracedFrame& sample);
   [[nodiscard]] FrameSettings settings(SamplePlace place = {}) const;
 
@@ -131,10 +149,14 @@ private:
   Matrix4 modelToWorld_{};
   bool frameIsCurrent_ = false;
   bool isShaded_ = false;
+  bool isNewView_ = true;      ///< to the textures that are loaded while they are seen
+  bool lacksTextures_ = false; ///< does the shaded frame show means of textures to come?
+  TextureDemand demand_;
   Style style_;
   FrameLayer first_;
   std::vector<FrameLayer> behind_;
-  FrameLayer sample_; ///< the last one for smooth edges
+  FrameLayer sample_;    ///< the last one for smooth edges
+  int tracedSample_ = 0; ///< its number; 0: none of this view
   SampleAverage average_;
   std::vector<float> rimDepth_;
   int samples_ = 0;

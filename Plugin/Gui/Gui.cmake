@@ -19,14 +19,20 @@ particleocclusion_property_widget(information_text pqInformationText)
 particleocclusion_property_widget(bake_estimate pqBakeEstimate)
 particleocclusion_property_widget(presets pqPresets)
 
-paraview_plugin_add_auto_start(
-  CLASS_NAME pqParticleActions
-  STARTUP startup
-  SHUTDOWN shutdown
-  INTERFACES interface
-  SOURCES generated)
-list(APPEND gui_interfaces ${interface})
-list(APPEND gui_sources ${generated} Gui/pqParticleActions.cxx Gui/pqParticleActions.h)
+# particleocclusion_auto_start(CLASS): of CLASS there is an object as long as the program runs.
+macro (particleocclusion_auto_start class)
+  paraview_plugin_add_auto_start(
+    CLASS_NAME "${class}"
+    STARTUP startup
+    SHUTDOWN shutdown
+    INTERFACES interface
+    SOURCES generated)
+  list(APPEND gui_interfaces ${interface})
+  list(APPEND gui_sources ${generated} "Gui/${class}.cxx" "Gui/${class}.h")
+endmacro ()
+
+particleocclusion_auto_start(pqParticleActions)
+particleocclusion_auto_start(pqBakeAbort)
 
 set(gui_arguments
   UI_INTERFACES ${gui_interfaces}

@@ -8,28 +8,31 @@
 #include "vtkPVDataInformation.h"
 #include "vtkSMPropertyHelper.h"
 #include "vtkSMProxy.h"
+#include "vtkSMSessionProxyManager.h"
 #include "vtkSMSourceProxy.h"
 #include "vtkSMUncheckedPropertyHelper.h"
 
 namespace
 {
 constexpr const char* Settings[] = { "TextureResolution", "SamplesPerTexel", "TargetError",
-  "Method", "Encoding", "BakeLight" };
+  "Method", "Encoding", "Storage", "BakeLight" };
 
 int chosen(vtkSMProxy* proxy, const char* name)
 {
   return vtkSMUncheckedPropertyHelper(proxy, name).GetAsInt();
 }
 
-double told(vtkSMProxy* proxy, const char* name)
+/// Of the server that bakes.
+vtkSmartPointer<vtkSMProxy> resourcesFor(vtkSMProxy* filter)
 {
-  proxy->UpdatePropertyInformation(proxy->GetProperty(name));
-  return vtkSMPropertyHelper(proxy, name).GetAsDouble();
+  vtkSMSessionProxyManager* proxies = filter->GetSessionProxyManager();
+  return vtkSmartPointer<vtkSMProxy>::Take(proxies->NewProxy("misc", "BakeResources"));
 }
 }
 
 pqBakeEstimate::pqBakeEstimate(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
   : Superclass(proxy, property, parent)
+  , Resources(resourcesFor(proxy))
 {
   for (const char* name : Settings)
   {
@@ -60,8 +63,11 @@ void pqBakeEstimate::refresh()
   {
     work.settings.light.emplace();
   }
+  work.settings.storage = static_cast<po::Storage>(chosen(this->proxy(), "Storage"));
   work.targetError = vtkSMUncheckedPropertyHelper(this->proxy(), "TargetError").GetAsDouble();
+  this->Resources->UpdatePropertyInformation();
   const std::string text = po::describe(po::estimateCost(work), work.particles,
-    static_cast<int>(told(this->proxy(), "NumberOfCores")), told(this->proxy(), "FreeMemory"));
+    vtkSMPropertyHelper(this->Resources, "NumberOfCores").GetAsInt(),
+    vtkSMPropertyHelper(this->Resources, "FreeMemory").GetAsDouble());
   this->show(QString::fromStdString(text));
 }

@@ -4,6 +4,8 @@
 
 #include "pqInformationText.h"
 
+#include "vtkSmartPointer.h"
+
 /// What the bake would take with the settings that the panel shows, before they are applied.
 ///
 /// The number of particles is that of the input as it was last read; cores and free memory are
@@ -21,6 +23,8 @@ protected Q_SLOTS:
 
 private:
   std::size_t particles() const;
+
+  vtkSmartPointer<vtkSMProxy> Resources;
 };
 
 #endif

@@ -23,6 +23,7 @@
 #include <QAction>
 #include <QIcon>
 #include <QMenu>
+#include <QTimer>
 
 namespace
 {
@@ -79,6 +80,19 @@ QAction* pqParticleActions::add(
 
 void pqParticleActions::startup()
 {
+  if (pqPVApplicationCore::instance())
+  {
+    this->addToSearch();
+  }
+  else
+  {
+    // A plugin that is loaded at the start comes before the search is there.
+    QTimer::singleShot(0, this, SLOT(addToSearch()));
+  }
+}
+
+void pqParticleActions::addToSearch()
+{
   pqPVApplicationCore* core = pqPVApplicationCore::instance();
   if (!core || this->Menu)
   {
@@ -89,12 +103,11 @@ void pqParticleActions::startup()
   this->Bake = this->add("ParticleOcclusion.Bake", "SphereAmbientOcclusion",
     "AO: Ambient Occlusion of Particles", SLOT(bake()));
   this->OfDisplay << this->add("ParticleOcclusion.ShowSpheres", "SphereAmbientOcclusion",
-    "Spheres: Show Particles as Ray-Traced Spheres", SLOT(showSpheres()));
+    "Spheres: Ray-Traced Particles", SLOT(showSpheres()));
   this->OfDisplay << this->add("ParticleOcclusion.ShowSilhouettes", "DepthSilhouettes",
     "Silhouettes: Outline Particles", SLOT(showSilhouettes()));
   this->OfServer << this->add("ParticleOcclusion.ShowSilhouetteView", "DepthSilhouettes",
-    "Silhouettes: Outline Everything in a New Render View (Silhouettes)",
-    SLOT(showSilhouetteView()));
+    "Silhouettes: Outline All (New View)", SLOT(showSilhouetteView()));
   core->registerForQuicklaunch(this->Menu.data());
   QObject::connect(core, SIGNAL(aboutToShowQuickLaunch()), this, SLOT(updateActions()));
 }

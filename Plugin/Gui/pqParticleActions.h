@@ -25,6 +25,7 @@ public:
   void shutdown();
 
 private Q_SLOTS:
+  void addToSearch();
   void updateActions();
   void bake();
   void showSpheres();

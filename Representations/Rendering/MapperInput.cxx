@@ -11,7 +11,7 @@
 
 namespace po
 {
-MapperInput::Messages MapperInput::update(
+MapperMessages MapperInput::update(
   vtkPolyData* points, const RadiusSettings& radii, SphereRenderer& renderer)
 {
   const Source source{ points, points ? points->GetMTime() : 0, radii };
@@ -27,7 +27,7 @@ MapperInput::Messages MapperInput::update(
   {
     return {}; // nothing to draw is no mistake
   }
-  Messages messages;
+  MapperMessages messages;
   auto input = readSphereCloud(*points, radii, messages.error);
   if (!input)
   {

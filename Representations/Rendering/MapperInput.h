@@ -19,6 +19,14 @@ namespace po
 {
 class SphereRenderer;
 
+/// What a mapper is to report.
+struct MapperMessages
+{
+  std::string
+    error; ///< why nothing could be read; empty on success, and where nothing is asked for
+  std::vector<std::string> warnings;
+};
+
 /// Reads the spheres that a mapper draws, and their baked textures; again only when the points or
 /// the radii change.
 class MapperInput
@@ -27,15 +35,9 @@ public:
   /// What the spheres were read from.
   using Source = std::tuple<vtkPolyData*, vtkMTimeType, RadiusSettings>;
 
-  struct Messages
-  {
-    std::string error; ///< why there are no spheres; empty on success, and without points
-    std::vector<std::string> warnings;
-  };
-
   /// Gives the renderer the spheres of the points, none if they cannot be read.
   /// @param points may be null
-  [[nodiscard]] Messages update(
+  [[nodiscard]] MapperMessages update(
     vtkPolyData* points, const RadiusSettings& radii, SphereRenderer& renderer);
 
   /// The next update reads the spheres anew.

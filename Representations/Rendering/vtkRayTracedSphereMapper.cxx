@@ -22,11 +22,15 @@ vtkStandardNewMacro(vtkRayTracedSphereMapper);
 
 namespace
 {
+bool isDragged(vtkRenderer* renderer)
+{
+  return renderer->GetRenderWindow()->GetDesiredUpdateRate() >= 1;
+}
+
 /// Does the user drag, so that frames must be ready in time?
 bool isInteractive(vtkRayTracedSphereMapper& mapper, vtkRenderer* renderer)
 {
-  return !renderer->GetSelector() && mapper.GetInteractiveRate() > 0 &&
-    renderer->GetRenderWindow()->GetDesiredUpdateRate() >= 1;
+  return !renderer->GetSelector() && mapper.GetInteractiveRate() > 0 && isDragged(renderer);
 }
 
 /// Fewer pixels of the same view.
@@ -46,14 +50,24 @@ vtkRayTracedSphereMapper::vtkRayTracedSphereMapper()
 vtkRayTracedSphereMapper::~vtkRayTracedSphereMapper()
 {
   this->SetRadiusArray(nullptr);
+  this->SetTextureFile(nullptr);
 }
 
 void vtkRayTracedSphereMapper::UpdateSpheres()
 {
   const po::RadiusSettings radii{ this->RadiusArray ? this->RadiusArray : "", this->RadiusScale,
     this->ConstantRadius, static_cast<po::RadiusSource>(this->RadiusFrom), this->Density };
-  const auto messages =
-    this->Internal->Input.update(this->GetInput(), radii, this->Internal->Renderer);
+  this->Report(this->Internal->Input.update(this->GetInput(), radii, this->Internal->Renderer));
+}
+
+void vtkRayTracedSphereMapper::UpdateTextures()
+{
+  const std::string file = this->TextureFile ? this->TextureFile : "";
+  this->Report(this->Internal->Paging.update(*this->GetInput(), file, this->TextureBudget));
+}
+
+void vtkRayTracedSphereMapper::Report(const po::MapperMessages& messages)
+{
   for (const std::string& warning : messages.warnings)
   {
     vtkWarningMacro(<< warning);
@@ -99,6 +113,7 @@ bool vtkRayTracedSphereMapper::Prepare(vtkActor* actor)
   {
     return false;
   }
+  this->UpdateTextures();
   internal.updateColors(this, actor);
   const std::string warning = internal.updateHidden(this, actor);
   if (!warning.empty())
@@ -126,6 +141,7 @@ void vtkRayTracedSphereMapper::RenderSpheres(vtkRenderer* renderer, vtkActor* ac
       camera, internal.Resolution.reduction(camera.width, camera.height, this->InteractiveRate));
   }
   const auto start = std::chrono::steady_clock::now();
+  const double waited = internal.Renderer.statistics().waitSeconds;
   const bool isNew = !internal.Renderer.isCurrent(camera, placement);
   if (!internal.Renderer.trace(camera, placement))
   {
@@ -135,7 +151,8 @@ void vtkRayTracedSphereMapper::RenderSpheres(vtkRenderer* renderer, vtkActor* ac
   if (isNew && !renderer->GetSelector() && internal.Renderer.samples() == 1)
   {
     internal.Resolution.measured(internal.Renderer.frame().pixels(),
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
+        (internal.Renderer.statistics().waitSeconds - waited));
   }
 }
 
@@ -163,22 +180,28 @@ void vtkRayTracedSphereMapper::Draw(vtkRenderer* renderer, vtkActor* actor)
 void vtkRayTracedSphereMapper::Shade(vtkRenderer* renderer, vtkActor* actor)
 {
   Internals& internal = *this->Internal;
-  const po::Style style = internal.styleOf(this, renderer, actor);
+  po::Style style = internal.styleOf(this, renderer, actor);
+  style.waitForTextures = !this->Progressive && !isDragged(renderer);
   const std::uint64_t before = internal.pictureVersion();
   internal.Renderer.shade(style);
   const bool isNew = before != internal.pictureVersion();
-  if (isInteractive(*this, renderer) || style.material.translucent)
+  this->Report({ internal.Paging.takeError(), {} });
+  if (isInteractive(*this, renderer))
   {
     return;
   }
-  const int next = this->Progressive
-    ? std::min(internal.Renderer.samples() + (isNew ? 0 : 1), this->SamplesPerPixel)
-    : this->SamplesPerPixel;
-  internal.Renderer.refine(next);
-  if (next < this->SamplesPerPixel)
+  const int samples = style.material.translucent ? 1 : this->SamplesPerPixel;
+  internal.Renderer.refine(
+    this->Progressive ? std::min(internal.Renderer.samples() + (isNew ? 0 : 1), samples) : samples);
+  if (internal.Renderer.samples() < samples || internal.Renderer.isWaiting())
   {
     this->InvokeEvent(vtkCommand::UpdateEvent);
   }
+}
+
+bool vtkRayTracedSphereMapper::HasMoreToShow()
+{
+  return this->Internal->Renderer.canGoOn();
 }
 
 bool vtkRayTracedSphereMapper::HasTranslucentPolygonalGeometry()
@@ -245,8 +268,7 @@ void vtkRayTracedSphereMapper::RemoveAllBlockStyles()
 vtkImageData* vtkRayTracedSphereMapper::GetLayers()
 {
   Internals& internal = *this->Internal;
-  return internal.Layers.update(
-    internal.Renderer, internal.Input.textures(), internal.pictureVersion());
+  return internal.Layers.update(internal.Renderer, internal.textures(), internal.pictureVersion());
 }
 
 vtkSmartPointer<vtkImageData> vtkRayTracedSphereMapper::RenderLayers(
@@ -279,6 +301,7 @@ void vtkRayTracedSphereMapper::ReleaseSpheres()
 {
   Internals& internal = *this->Internal;
   internal.Input.forget();
+  internal.Paging.forget();
   internal.Hidden.forget();
   internal.VersionBase = internal.pictureVersion();
   internal.Renderer = po::SphereRenderer(Internals::sharedScenes());
@@ -305,6 +328,8 @@ void vtkRayTracedSphereMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ConstantRadius: " << this->ConstantRadius << '\n';
   os << indent << "RadiusFrom: " << this->RadiusFrom << '\n';
   os << indent << "Density: " << this->Density << '\n';
+  os << indent << "TextureFile: " << (this->TextureFile ? this->TextureFile : "(none)") << '\n';
+  os << indent << "TextureBudget: " << this->TextureBudget << '\n';
   os << indent << "ShadingMode: " << this->ShadingMode << '\n';
   os << indent << "OcclusionOnDiffuse: " << (this->OcclusionOnDiffuse ? "on" : "off") << '\n';
   os << indent << "Shadows: " << (this->Shadows ? "on" : "off") << '\n';

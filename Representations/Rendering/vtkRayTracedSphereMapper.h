@@ -37,6 +37,7 @@ class vtkImageData;
 namespace po
 {
 class SphereRenderer;
+struct MapperMessages;
 }
 
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkRayTracedSphereMapper : public vtkPolyDataMapper
@@ -111,12 +112,29 @@ public:
   ///@}
 
   ///@{
+  /// TextureFile: a file of occlusion textures, as vtkOcclusionTextureWriter writes it for these
+  /// very points, whose textures are drawn in place of those that the points carry. Only those of
+  /// spheres that are seen are read, by a thread of their own. Without Progressive a picture waits
+  /// for them, but never while the user drags; else a particle shows its mean until its texture is
+  /// there, and UpdateEvent is invoked. Default: none.
+  ///
+  /// TextureBudget: MiB that these textures may take, with 16 bytes for each, at least 0. Another 8
+  /// bytes a point and 16 a texture are always taken. Those that were seen least recently make room
+  /// for others; of a picture that shows more than the budget holds, the textures of fewest pixels
+  /// are missing. Default 256.
+  vtkSetFilePathMacro(TextureFile);
+  vtkGetFilePathMacro(TextureFile);
+  vtkSetClampMacro(TextureBudget, double, 0, VTK_DOUBLE_MAX);
+  vtkGetMacro(TextureBudget, double);
+  ///@}
+
+  ///@{
   /// SamplesPerPixel: rays a pixel, 1 to 256, each through another place of it, for smooth edges.
   /// Depth stays that of the pixel's centre. The rim of a sphere is mixed with what was drawn
   /// before. Not for translucent spheres. Default 1.
   /// Progressive: each time the same picture is rendered again one ray a pixel is added, in place
-  /// of all of them the first time. While there are more to add, UpdateEvent is invoked. Default
-  /// off.
+  /// of all of them the first time. While there are more to add, UpdateEvent is invoked, and
+  /// HasMoreToShow() tells when. Default off.
   /// InteractiveRate: frames a second to reach while the window asks for speed (its
   /// DesiredUpdateRate is at least 1, as while the user drags): frames become as coarse as that
   /// takes. 0: never coarse. Default 15.
@@ -128,6 +146,10 @@ public:
   vtkSetClampMacro(InteractiveRate, double, 0, 1000);
   vtkGetMacro(InteractiveRate, double);
   ///@}
+
+  /// After an UpdateEvent: would rendering again change the picture now? False while textures are
+  /// being read and none has arrived.
+  bool HasMoreToShow();
 
   ///@{
   /// Where several processes draw parts of one set of particles: the number of all of them, their
@@ -169,6 +191,9 @@ public:
   int GetNumberOfSamples();             ///< rays a pixel in the last frame
   int GetNumberOfLayers();              ///< of spheres, one behind the other, in the last frame
   static vtkIdType GetNumberOfScenes();
+  vtkIdType GetNumberOfResidentTextures(); ///< of the TextureFile in memory
+  vtkIdType GetResidentTextureBytes();     ///< what they take, and those that are being read
+  vtkIdType GetNumberOfMissingTextures();  ///< seen in the last frame, but not in memory
   double GetBuildSeconds();
   double GetTraceSeconds();
   double GetShadowSeconds();
@@ -196,7 +221,9 @@ private:
   vtkRayTracedSphereMapper(const vtkRayTracedSphereMapper&) = delete;
   void operator=(const vtkRayTracedSphereMapper&) = delete;
 
+  void Report(const po::MapperMessages& messages);
   void UpdateSpheres();
+  void UpdateTextures();
   bool Prepare(vtkActor* actor);
   void RenderSpheres(vtkRenderer* renderer, vtkActor* actor);
   void Draw(vtkRenderer* renderer, vtkActor* actor);
@@ -207,6 +234,8 @@ private:
   double ConstantRadius = 0;
   int RadiusFrom = 0;
   double Density = 1;
+  char* TextureFile = nullptr;
+  double TextureBudget = 256;
   int ShadingMode = BOTH;
   bool OcclusionOnDiffuse = true;
   bool Shadows = false;

@@ -35,7 +35,7 @@ po::Style vtkRayTracedSphereMapper::Internals::styleOf(
   style.lights = po::lightsOf(renderer);
   style.material = po::materialOf(actor->GetProperty(), !style.lights.empty());
   style.material.mode = static_cast<po::ShadingMode>(mapper->ShadingMode);
-  if (style.material.mode == po::ShadingMode::Both && this->Input.hasBakedLight())
+  if (style.material.mode == po::ShadingMode::Both && this->hasBakedLight())
   {
     style.material.mode = po::ShadingMode::AmbientOcclusion; // light is not to count twice
   }
@@ -43,8 +43,9 @@ po::Style vtkRayTracedSphereMapper::Internals::styleOf(
   style.material.translucent = actor->HasTranslucentPolygonalGeometry();
   style.material.particleColors = this->Colors.rgba();
   style.material.colorsVersion = this->Colors.version();
-  style.textures = this->Input.textures();
-  style.texturesVersion = this->Input.texturesVersion();
+  style.textures = this->textures();
+  style.texturesVersion = this->Input.texturesVersion() + this->Paging.version();
+  style.waitForTextures = true;
   style.shadows = mapper->Shadows;
   return style;
 }

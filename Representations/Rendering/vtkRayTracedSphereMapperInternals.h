@@ -10,6 +10,7 @@
 #include "PointColors.h"
 #include "SphereDrawer.h"
 #include "SphereRenderer.h"
+#include "TexturePaging.h"
 #include "vtkRayTracedSphereMapper.h"
 
 #include <cstdint>
@@ -24,6 +25,7 @@ struct vtkRayTracedSphereMapper::Internals
   static const std::shared_ptr<po::SceneCache>& sharedScenes();
 
   po::MapperInput Input;
+  po::TexturePaging Paging; ///< in place of the textures of the input
   po::SphereRenderer Renderer{ sharedScenes() };
   std::vector<po::CropRange> CropRanges;
   po::BlockStyles BlockStyles;
@@ -39,7 +41,19 @@ struct vtkRayTracedSphereMapper::Internals
   [[nodiscard]] std::uint64_t pictureVersion() const
   {
     const po::RenderStatistics& s = this->Renderer.statistics();
-    return this->VersionBase + 1 + s.framesTraced + s.framesShaded + s.samplesTraced;
+    return this->VersionBase + 1 + s.framesTraced + s.framesShaded + s.samplesAdded;
+  }
+
+  /// Of the texture file if there is one, else of the points.
+  [[nodiscard]] const po::OcclusionTextures& textures() const
+  {
+    return this->Paging.isOn() ? this->Paging.textures() : this->Input.textures();
+  }
+
+  /// Is direct light in them?
+  [[nodiscard]] bool hasBakedLight() const
+  {
+    return this->Paging.isOn() ? this->Paging.hasBakedLight() : this->Input.hasBakedLight();
   }
 
   /// Maps the scalars of the mapper's points.
@@ -49,7 +63,7 @@ struct vtkRayTracedSphereMapper::Internals
   /// @return a warning, empty if there is none
   [[nodiscard]] std::string updateHidden(vtkRayTracedSphereMapper* mapper, vtkActor* actor);
 
-  /// How the frame is to look. The style refers to arrays of this object.
+  /// How the frame is to look. The style refers to arrays of this object, and waits for textures.
   [[nodiscard]] po::Style styleOf(
     const vtkRayTracedSphereMapper* mapper, vtkRenderer* renderer, vtkActor* actor) const;
 

@@ -61,6 +61,23 @@ vtkIdType vtkRayTracedSphereMapper::GetNumberOfTracedShadows()
   return static_cast<vtkIdType>(this->Internal->Renderer.statistics().shadowsTraced);
 }
 
+vtkIdType vtkRayTracedSphereMapper::GetNumberOfResidentTextures()
+{
+  const auto& paged = this->Internal->Paging.textures().paged();
+  return paged ? static_cast<vtkIdType>(paged->resident()) : 0;
+}
+
+vtkIdType vtkRayTracedSphereMapper::GetResidentTextureBytes()
+{
+  const auto& paged = this->Internal->Paging.textures().paged();
+  return paged ? static_cast<vtkIdType>(paged->bytes()) : 0;
+}
+
+vtkIdType vtkRayTracedSphereMapper::GetNumberOfMissingTextures()
+{
+  return static_cast<vtkIdType>(this->Internal->Renderer.statistics().missingTextures);
+}
+
 double vtkRayTracedSphereMapper::GetBuildSeconds()
 {
   return this->Internal->Renderer.statistics().buildSeconds;

@@ -48,7 +48,8 @@ Refinement::~Refinement()
 
 void Refinement::begin(vtkPVRenderView* view)
 {
-  timer_ = std::make_unique<RefinementTimer>(view);
+  timer_ = std::make_unique<RefinementTimer>(
+    view, [mapper = mapper_] { return mapper && mapper->HasMoreToShow(); });
 }
 
 void Refinement::end()

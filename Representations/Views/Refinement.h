@@ -15,7 +15,8 @@ class vtkRayTracedSphereMapper;
 
 namespace po
 {
-/// Refines still pictures of a mapper step by step, while nothing changes in the view.
+/// Refines still pictures of a mapper step by step, while nothing changes in the view: by rays for
+/// smooth edges, and by textures as they are read.
 class Refinement
 {
 public:

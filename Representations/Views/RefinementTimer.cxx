@@ -8,6 +8,8 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderWindowInteractor.h"
 
+#include <utility>
+
 namespace po
 {
 namespace
@@ -15,8 +17,9 @@ namespace
 constexpr unsigned long Milliseconds = 10;
 }
 
-RefinementTimer::RefinementTimer(vtkPVRenderView* view)
+RefinementTimer::RefinementTimer(vtkPVRenderView* view, std::function<bool()> isReady)
   : view_(view)
+  , isReady_(std::move(isReady))
 {
 }
 
@@ -67,10 +70,23 @@ void RefinementTimer::onTimer(vtkObject*, unsigned long, void* self, void* timer
   }
   me->interactor_->DestroyTimer(me->timer_);
   me->timer_ = 0;
-  const bool dragging = !me->view_ || me->view_->GetRenderWindow()->GetDesiredUpdateRate() >= 1;
-  if (!dragging)
+  me->tick();
+}
+
+void RefinementTimer::tick()
+{
+  const bool dragging = !view_ || view_->GetRenderWindow()->GetDesiredUpdateRate() >= 1;
+  if (dragging)
   {
-    me->view_->StillRender();
+    return;
+  }
+  if (isReady_())
+  {
+    view_->StillRender();
+  }
+  else
+  {
+    this->start();
   }
 }
 }

@@ -4,6 +4,8 @@
 
 #include "vtkWeakPointer.h"
 
+#include <functional>
+
 class vtkObject;
 class vtkPVRenderView;
 class vtkRenderWindowInteractor;
@@ -15,7 +17,8 @@ namespace po
 class RefinementTimer
 {
 public:
-  explicit RefinementTimer(vtkPVRenderView* view);
+  /// @param isReady is a picture worth while? Otherwise it is asked again a little later.
+  RefinementTimer(vtkPVRenderView* view, std::function<bool()> isReady);
   ~RefinementTimer();
   RefinementTimer(const RefinementTimer&) = delete;
   RefinementTimer& operator=(const RefinementTimer&) = delete;
@@ -26,9 +29,11 @@ public:
 
 private:
   void stop();
+  void tick();
   static void onTimer(vtkObject* caller, unsigned long event, void* self, void* timer);
 
   vtkWeakPointer<vtkPVRenderView> view_;
+  std::function<bool()> isReady_;
   vtkWeakPointer<vtkRenderWindowInteractor> interactor_;
   unsigned long observer_ = 0;
   int timer_ = 0; ///< 0: none is running

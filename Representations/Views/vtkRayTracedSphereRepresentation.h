@@ -51,6 +51,8 @@ public:
   void SetShadows(bool on);
   void SetSamplesPerPixel(int samples);
   void SetInteractiveRate(double framesPerSecond);
+  void SetTextureFile(const char* name);
+  void SetTextureBudget(double mebibytes);
   void AddCropRange(const char* array, int component, double low, double high);
   void RemoveAllCropRanges();
   void SetLookupTable(vtkScalarsToColors* table);
@@ -64,6 +66,9 @@ public:
   vtkIdType GetNumberOfSkippedShadowRays();
   vtkIdType GetNumberOfTracedFrames();
   int GetNumberOfSamples();
+  vtkIdType GetNumberOfResidentTextures();
+  vtkIdType GetResidentTextureBytes();
+  vtkIdType GetNumberOfMissingTextures();
   double GetTraceSeconds();
   double GetShadowSeconds();
   double GetShadeSeconds();

@@ -35,6 +35,16 @@ void vtkRayTracedSphereRepresentation::SetInteractiveRate(double framesPerSecond
   this->Mapper->SetInteractiveRate(framesPerSecond);
 }
 
+void vtkRayTracedSphereRepresentation::SetTextureFile(const char* name)
+{
+  this->Mapper->SetTextureFile(name);
+}
+
+void vtkRayTracedSphereRepresentation::SetTextureBudget(double mebibytes)
+{
+  this->Mapper->SetTextureBudget(mebibytes);
+}
+
 void vtkRayTracedSphereRepresentation::SetLookupTable(vtkScalarsToColors* table)
 {
   this->Mapper->SetLookupTable(table);
@@ -68,6 +78,21 @@ vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfTracedFrames()
 int vtkRayTracedSphereRepresentation::GetNumberOfSamples()
 {
   return this->Mapper->GetNumberOfSamples();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfResidentTextures()
+{
+  return this->Mapper->GetNumberOfResidentTextures();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetResidentTextureBytes()
+{
+  return this->Mapper->GetResidentTextureBytes();
+}
+
+vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfMissingTextures()
+{
+  return this->Mapper->GetNumberOfMissingTextures();
 }
 
 vtkIdType vtkRayTracedSphereRepresentation::GetNumberOfScenes()

@@ -20,27 +20,23 @@
 
 #include "BenchmarkJudge.h"
 #include "BenchmarkScenes.h"
-#include "EmbreeEstimator.h"
+#include "ErrorOptions.h"
+#include "MeasuredMethod.h"
 #include "OcclusionBaker.h"
+#include "ProcessCost.h"
 #include "ReferenceEstimator.h"
-#include "SweepEstimator.h"
-#include "TexelMap.h"
+#include "TextureRecorder.h"
 
 #include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
-#include <functional>
 #include <iostream>
-#include <limits>
-#include <map>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -51,299 +47,6 @@ namespace
 {
 constexpr std::uint64_t MeasuredSeed = 1;
 constexpr std::uint64_t JudgeSeeds[2] = { 7701, 7702 };
-
-/// "--name value" pairs of the command line.
-class Options
-{
-public:
-  Options(int argc, char* argv[], int first)
-  {
-    for (int i = first; i < argc; i += 2)
-    {
-      const std::string name = argv[i];
-      if (name.compare(0, 2, "--") != 0 || i + 1 == argc)
-      {
-        throw std::runtime_error("'" + name + "' is no option with a value");
-      }
-      values_[name.substr(2)] = argv[i + 1];
-    }
-  }
-
-  [[nodiscard]] std::string text(const std::string& name, const std::string& otherwise = {}) const
-  {
-    const auto found = values_.find(name);
-    return found == values_.end() ? otherwise : found->second;
-  }
-
-  [[nodiscard]] std::string required(const std::string& name) const
-  {
-    const std::string value = text(name);
-    if (value.empty())
-    {
-      throw std::runtime_error("--" + name + " is missing");
-    }
-    return value;
-  }
-
-  /// A whole number from 0 to 2^30.
-  [[nodiscard]] int number(const std::string& name, int otherwise) const
-  {
-    const std::string value = text(name, std::to_string(otherwise));
-    const bool digits = !value.empty() && value.size() <= 10 &&
-      value.find_first_not_of("0123456789") == std::string::npos;
-    if (!digits || std::stoull(value) > 1u << 30)
-    {
-      throw std::runtime_error("--" + name + " must be a whole number, not '" + value + "'");
-    }
-    return std::stoi(value);
-  }
-
-private:
-  std::map<std::string, std::string> values_;
-};
-
-/// An estimator at one level of quality.
-struct Method
-{
-  std::unique_ptr<po::OcclusionEstimator> estimator;
-  int samplesPerTexel;
-  bool allAtOnce; ///< the time does not depend on how many particles are asked for
-};
-
-/// All that a sweep may leave out, but for what is named.
-po::SweepSkips skipsWithout(const std::string& name)
-{
-  static const std::map<std::string, bool po::SweepSkips::*> flags{
-    { "closedCells", &po::SweepSkips::closedCells },
-    { "neverSeen", &po::SweepSkips::neverSeen },
-    { "offsetMasks", &po::SweepSkips::offsetMasks },
-    { "blackSky", &po::SweepSkips::blackSky },
-    { "lonely", &po::SweepSkips::lonely },
-  };
-  po::SweepSkips skips;
-  if (!name.empty())
-  {
-    const auto flag = flags.find(name);
-    if (flag == flags.end())
-    {
-      throw std::runtime_error("There is no skip '" + name + "'");
-    }
-    skips.*flag->second = false;
-  }
-  return skips;
-}
-
-/// The one place to add another estimator (and its levels to METHODS in run_error_benchmark.py).
-Method makeMethod(const std::string& name, int level, const std::string& without)
-{
-  if (name == "Sweep")
-  {
-    po::SweepOptions options;
-    options.directions = level;
-    options.skips = skipsWithout(without);
-    return { std::make_unique<po::SweepEstimator>(options), 1, true };
-  }
-  if (!without.empty())
-  {
-    throw std::runtime_error("--without is only for the method Sweep");
-  }
-  if (name == "Reference")
-  {
-    return { std::make_unique<po::ReferenceEstimator>(), level, false };
-  }
-  if (name == "Embree")
-  {
-    return { std::make_unique<po::EmbreeEstimator>(po::EmbreeOptions{ level, 0 }), 1, false };
-  }
-  throw std::runtime_error("There is no method '" + name + "'");
-}
-
-/// Gets the raw textures while they are made.
-using Observer = std::function<void(const po::RawTextures&)>;
-
-/// RMS difference from values that an earlier run wrote, weighted like the error of a judge.
-class Comparison
-{
-public:
-  Comparison(const std::string& file, int resolution)
-    : file_(file, std::ios::binary)
-    , resolution_(resolution)
-  {
-  }
-
-  void add(const po::RawTextures& raw)
-  {
-    const auto side = static_cast<std::size_t>(resolution_);
-    std::vector<float> others(raw.count * side * side);
-    file_.read(reinterpret_cast<char*>(others.data()),
-      static_cast<std::streamsize>(others.size() * sizeof(float)));
-    if (!file_)
-    {
-      throw std::runtime_error("The values to compare with are too few, or cannot be read");
-    }
-    for (std::size_t i = 0; i < others.size(); ++i)
-    {
-      const double weight = static_cast<double>(raw.outsideShares[i]) *
-        po::texelArea(resolution_, static_cast<int>(i / side % side));
-      const double difference = static_cast<double>(raw.values[i]) - others[i];
-      squares_ += weight * difference * difference;
-      area_ += weight;
-    }
-  }
-
-  [[nodiscard]] double rms() const { return area_ > 0 ? std::sqrt(squares_ / area_) : 0; }
-
-private:
-  std::ifstream file_;
-  int resolution_;
-  double squares_ = 0;
-  double area_ = 0;
-};
-
-/// Passes on what an estimator finds and keeps the textures of some particles.
-class Recorder : public po::OcclusionEstimator
-{
-public:
-  /// @param positions of the particles to keep, in the list that will be estimated
-  Recorder(const po::OcclusionEstimator& estimator, const std::vector<std::size_t>& positions,
-    std::size_t texels, Observer observer = {})
-    : estimator_(estimator)
-    , texels_(texels)
-    , observer_(std::move(observer))
-  {
-    for (std::size_t slot = 0; slot < positions.size(); ++slot)
-    {
-      slots_[positions[slot]] = slot;
-    }
-    kept_.values.resize(positions.size() * texels);
-    kept_.shares.resize(positions.size() * texels);
-  }
-
-  void estimate(const po::BakeScene& scene, const std::vector<unsigned>& particles,
-    const po::BakeSettings& settings, po::Progress& progress, const Sink& sink,
-    po::BakeCounters& counters) const override
-  {
-    estimator_.estimate(
-      scene, particles, settings, progress,
-      [&](const po::RawTextures& raw)
-      {
-        keep(raw);
-        sink(raw);
-      },
-      counters);
-  }
-
-  [[nodiscard]] double bytesPerTexel() const override { return estimator_.bytesPerTexel(); }
-
-  [[nodiscard]] const po::JudgedTexels& kept() const { return kept_; }
-
-private:
-  void keep(const po::RawTextures& raw) const
-  {
-    const auto end = slots_.lower_bound(raw.firstParticle + raw.count);
-    for (auto slot = slots_.lower_bound(raw.firstParticle); slot != end; ++slot)
-    {
-      const std::size_t from = (slot->first - raw.firstParticle) * texels_;
-      const std::size_t to = slot->second * texels_;
-      std::copy_n(raw.values + from, texels_, kept_.values.begin() + to);
-      std::copy_n(raw.outsideShares + from, texels_, kept_.shares.begin() + to);
-    }
-    if (observer_)
-    {
-      observer_(raw);
-    }
-  }
-
-  const po::OcclusionEstimator& estimator_;
-  std::size_t texels_;
-  Observer observer_;
-  std::map<std::size_t, std::size_t> slots_;
-  mutable po::JudgedTexels kept_;
-};
-
-struct Seconds
-{
-  double cpu = 0; ///< of all threads of the process
-  double wall = 0;
-};
-
-class Stopwatch
-{
-public:
-  [[nodiscard]] Seconds elapsed() const
-  {
-    return { static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC,
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count() };
-  }
-
-private:
-  std::clock_t cpu_ = std::clock();
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-};
-
-/// Megabytes from a line of /proc/self/status: "VmHWM" is the peak, "VmRSS" is used now. (The peak
-/// of getrusage can be that of the program that started this one.)
-double statusMegabytes(const std::string& name)
-{
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-  {
-    if (line.compare(0, name.size() + 1, name + ":") == 0)
-    {
-      return std::strtod(line.c_str() + name.size() + 1, nullptr) * 1024 / 1e6;
-    }
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
-std::size_t texelCount(int resolution)
-{
-  return static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution);
-}
-
-std::size_t sphereCount(const Options& options)
-{
-  return static_cast<std::size_t>(options.number("count", 30000));
-}
-
-int resolutionOf(const Options& options)
-{
-  const int resolution = options.number("resolution", 16);
-  if (resolution < 1 || resolution > po::BakeSettings::MaximumTextureResolution)
-  {
-    throw std::runtime_error("--resolution must be from 1 to 64");
-  }
-  return resolution;
-}
-
-/// The base name of a file; other names stay. Unusual conditions come behind it.
-std::string shortName(const Options& options)
-{
-  const std::string scene = options.required("scene");
-  const std::size_t slash = scene.find_last_of('/');
-  const std::string name = slash == std::string::npos ? scene : scene.substr(slash + 1);
-  const std::size_t dot = name.rfind(".vtp");
-  std::string result = name.substr(0, dot);
-  for (const char* condition : { "background", "distance" })
-  {
-    const std::string value = options.text(condition);
-    result += value.empty() ? "" : "-" + value;
-  }
-  return result;
-}
-
-/// @param radius the mean one, in which --distance is counted
-po::BakeSettings settingsOf(const Options& options, double radius)
-{
-  po::BakeSettings settings;
-  settings.textureResolution = resolutionOf(options);
-  if (!options.text("background").empty())
-  {
-    settings.background = po::makeBenchmarkBackground(options.text("background"));
-  }
-  settings.maximumDistance = options.number("distance", 0) * radius;
-  return settings;
-}
 
 // ---- targets
 
@@ -378,7 +81,7 @@ po::JudgedTexels judgeHalf(
   std::vector<std::size_t> positions(judge.particles.size());
   std::iota(positions.begin(), positions.end(), std::size_t(0));
   const po::ReferenceEstimator reference;
-  const Recorder recorder(reference, positions, texelCount(judge.resolution));
+  const po::TextureRecorder recorder(reference, positions, po::texelCount(judge.resolution));
   po::Progress progress;
   po::BakeCounters counters;
   recorder.estimate(
@@ -386,17 +89,17 @@ po::JudgedTexels judgeHalf(
   return recorder.kept();
 }
 
-void makeJudge(const Options& options)
+void makeJudge(const po::ErrorOptions& options)
 {
   const std::string output = options.required("output");
   const po::SphereCloud cloud =
-    po::makeBenchmarkScene(options.required("scene"), sphereCount(options));
+    po::makeBenchmarkScene(options.required("scene"), po::sphereCount(options));
   const po::BakeScene scene(cloud);
   po::Judge judge;
-  judge.scene = shortName(options);
+  judge.scene = po::shortName(options);
   judge.spheres = cloud.spheres.size();
   judge.checksum = po::checksum(cloud);
-  judge.resolution = resolutionOf(options);
+  judge.resolution = po::resolutionOf(options);
   judge.samples = options.number("samples", 16200);
   std::copy_n(JudgeSeeds, 2, judge.seeds);
   judge.particles =
@@ -405,7 +108,7 @@ void makeJudge(const Options& options)
   {
     throw std::runtime_error("There must be a particle to judge, and two samples a texel");
   }
-  const po::BakeSettings settings = settingsOf(options, cloud.scale);
+  const po::BakeSettings settings = po::settingsOf(options, cloud.scale);
   po::mergeHalves(judgeHalf(scene, judge, settings, judge.seeds[0]),
     judgeHalf(scene, judge, settings, judge.seeds[1]), judge);
   po::writeJudge(judge, output);
@@ -450,7 +153,7 @@ Selection selectSome(
   return selection;
 }
 
-po::Judge judgeFor(const Options& options, const po::SphereCloud& cloud, int resolution)
+po::Judge judgeFor(const po::ErrorOptions& options, const po::SphereCloud& cloud, int resolution)
 {
   const std::string file = options.text("judge");
   if (file.empty())
@@ -459,7 +162,7 @@ po::Judge judgeFor(const Options& options, const po::SphereCloud& cloud, int res
   }
   po::Judge judge = po::readJudge(file);
   if (judge.checksum != po::checksum(cloud) || judge.spheres != cloud.spheres.size() ||
-    judge.resolution != resolution || judge.scene != shortName(options))
+    judge.resolution != resolution || judge.scene != po::shortName(options))
   {
     throw std::runtime_error(
       file + " was made from other spheres, for other textures or under another background");
@@ -475,8 +178,8 @@ struct Measurement
   int resolution = 0;
   std::size_t particles = 0;
   std::size_t measured = 0; ///< particles whose time was taken
-  Seconds sceneSeconds;     ///< what comes before any estimate: Embree's hierarchies
-  Seconds seconds;          ///< scaled to all particles
+  po::Seconds sceneSeconds; ///< what comes before any estimate: Embree's hierarchies
+  po::Seconds seconds;      ///< scaled to all particles
   double sceneMegabytes = 0;
   double peakMegabytes = 0;
 };
@@ -521,7 +224,7 @@ void printCounters(const po::BakeCounters& counters, bool baked)
 }
 
 /// Estimates the list, or bakes all.
-po::BakeCounters run(const Recorder& recorder, const po::BakeScene& scene,
+po::BakeCounters run(const po::TextureRecorder& recorder, const po::BakeScene& scene,
   const std::vector<unsigned>& list, const po::BakeSettings& settings, bool bake)
 {
   po::Progress progress;
@@ -536,7 +239,7 @@ po::BakeCounters run(const Recorder& recorder, const po::BakeScene& scene,
 }
 
 /// Writes the values as raw floats, if that is asked for.
-Observer valueWriter(const Options& options)
+po::TextureObserver valueWriter(const po::ErrorOptions& options)
 {
   const std::string name = options.text("values");
   if (name.empty())
@@ -548,20 +251,21 @@ Observer valueWriter(const Options& options)
   {
     throw std::runtime_error("Cannot write " + name);
   }
-  return [file, texels = texelCount(resolutionOf(options))](const po::RawTextures& raw)
+  return [file, texels = po::texelCount(po::resolutionOf(options))](const po::RawTextures& raw)
   {
     file->write(reinterpret_cast<const char*>(raw.values),
       static_cast<std::streamsize>(raw.count * texels * sizeof(float)));
   };
 }
 
-std::unique_ptr<Comparison> makeComparison(const Options& options)
+std::unique_ptr<po::TextureComparison> makeComparison(const po::ErrorOptions& options)
 {
   const std::string file = options.text("compare");
-  return file.empty() ? nullptr : std::make_unique<Comparison>(file, resolutionOf(options));
+  return file.empty() ? nullptr
+                      : std::make_unique<po::TextureComparison>(file, po::resolutionOf(options));
 }
 
-Observer joined(Observer writer, Comparison* comparison)
+po::TextureObserver joined(po::TextureObserver writer, po::TextureComparison* comparison)
 {
   if (!comparison)
   {
@@ -578,13 +282,13 @@ Observer joined(Observer writer, Comparison* comparison)
 }
 
 /// What the command line says of a measurement.
-Measurement describe(const Options& options)
+Measurement describe(const po::ErrorOptions& options)
 {
   Measurement result;
-  result.scene = shortName(options);
+  result.scene = po::shortName(options);
   result.method = options.required("method");
   result.level = options.number("level", 0);
-  result.resolution = resolutionOf(options);
+  result.resolution = po::resolutionOf(options);
   if (result.level < 1)
   {
     throw std::runtime_error("--level must be at least 1");
@@ -603,8 +307,8 @@ std::unique_ptr<tbb::global_control> limitThreads(int count)
     tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
 }
 
-Selection select(const Options& options, const Method& method, std::size_t particles,
-  const std::vector<unsigned>& judged)
+Selection select(const po::ErrorOptions& options, const po::MeasuredMethod& method,
+  std::size_t particles, const std::vector<unsigned>& judged)
 {
   const auto measured = static_cast<std::size_t>(options.number("measured", 512));
   Selection selection =
@@ -616,10 +320,11 @@ Selection select(const Options& options, const Method& method, std::size_t parti
   return selection;
 }
 
-void measure(const Options& options)
+void measure(const po::ErrorOptions& options)
 {
   Measurement result = describe(options);
-  const Method method = makeMethod(result.method, result.level, options.text("without"));
+  const po::MeasuredMethod method =
+    po::makeMethod(result.method, result.level, options.text("without"));
   if (!options.text("target").empty())
   {
     allowOnlyTarget(options.text("target"));
@@ -627,30 +332,30 @@ void measure(const Options& options)
   const auto threads = limitThreads(options.number("threads", 0));
 
   const po::SphereCloud cloud =
-    po::makeBenchmarkScene(options.required("scene"), sphereCount(options));
-  const Stopwatch sceneWatch;
+    po::makeBenchmarkScene(options.required("scene"), po::sphereCount(options));
+  const po::Stopwatch sceneWatch;
   const po::BakeScene scene(cloud);
   result.sceneSeconds = sceneWatch.elapsed();
-  result.sceneMegabytes = statusMegabytes("VmRSS");
+  result.sceneMegabytes = po::statusMegabytes("VmRSS");
   result.particles = cloud.spheres.size();
 
   const po::Judge judge = judgeFor(options, cloud, result.resolution);
   const Selection selection = select(options, method, result.particles, judge.particles);
   result.measured = selection.list.size();
-  po::BakeSettings settings = settingsOf(options, cloud.scale);
+  po::BakeSettings settings = po::settingsOf(options, cloud.scale);
   settings.samplesPerTexel = method.samplesPerTexel;
   settings.seed = MeasuredSeed;
-  const std::unique_ptr<Comparison> comparison = makeComparison(options);
-  const Recorder recorder(*method.estimator, selection.judged, texelCount(result.resolution),
-    joined(valueWriter(options), comparison.get()));
+  const std::unique_ptr<po::TextureComparison> comparison = makeComparison(options);
+  const po::TextureRecorder recorder(*method.estimator, selection.judged,
+    po::texelCount(result.resolution), joined(valueWriter(options), comparison.get()));
   const bool bake = method.allAtOnce && options.number("bake", 0) > 0;
 
-  const Stopwatch watch;
+  const po::Stopwatch watch;
   const po::BakeCounters counters = run(recorder, scene, selection.list, settings, bake);
-  const Seconds seconds = watch.elapsed();
+  const po::Seconds seconds = watch.elapsed();
   const double scale = static_cast<double>(result.particles) / static_cast<double>(result.measured);
   result.seconds = { scale * seconds.cpu, scale * seconds.wall };
-  result.peakMegabytes = statusMegabytes("VmHWM");
+  result.peakMegabytes = po::statusMegabytes("VmHWM");
 
   printMeasurement(result);
   printCounters(counters, bake);
@@ -668,7 +373,7 @@ void measure(const Options& options)
 void runCommand(int argc, char* argv[])
 {
   const std::string command = argc > 1 ? argv[1] : "";
-  const Options options(argc, argv, 2);
+  const po::ErrorOptions options(argc, argv, 2);
   if (command == "measure")
   {
     measure(options);

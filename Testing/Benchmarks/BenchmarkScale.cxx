@@ -8,6 +8,7 @@
 /// cannot be done without: the spheres and Embree's scene of them, and the output. With a directory
 /// the filter is executed twice, the second time from its cache. Linux.
 
+#include "ProcessCost.h"
 #include "SphereCloud.h"
 #include "SphereScene.h"
 #include "SphereSet.h"
@@ -35,26 +36,9 @@ namespace
 {
 constexpr double Megabyte = 1e6;
 
-/// A line of /proc/self/status in MB.
-double statusMegabytes(const std::string& name)
-{
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word)
-  {
-    if (word == name + ":")
-    {
-      double kibibytes = 0;
-      status >> kibibytes;
-      return kibibytes * 1024 / Megabyte;
-    }
-  }
-  return 0;
-}
-
 double resident()
 {
-  return statusMegabytes("VmRSS");
+  return po::statusMegabytes("VmRSS");
 }
 
 /// Makes the peak that of what follows.
@@ -120,7 +104,7 @@ void execute(vtkSphereAmbientOcclusion* filter, const char* label, double scene)
   filter->Update();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - wall;
   const double cpuSeconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-  const double peak = statusMegabytes("VmHWM") - before;
+  const double peak = po::statusMegabytes("VmHWM") - before;
   auto* output = vtkPolyData::SafeDownCast(filter->GetOutputDataObject(0));
   const double bound = scene + outputMegabytes(*output);
   std::printf("| %s | %lld | %s%s | %.1f | %.1f | %.0f | %.0f | %.0f | %.2f |\n", label,

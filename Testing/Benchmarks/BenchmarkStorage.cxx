@@ -2,10 +2,10 @@
 /// Ways to store baked textures, as Markdown on standard output: bytes a particle, what storing
 /// changes, the time of a lookup, and of a frame against the one with plain 8-bit textures.
 ///
-///   BenchmarkStorage [COUNT] [FILE.vtp ...]
+///   BenchmarkStorage [COUNT] [FAMILY | FILE.vtp ...]
 ///
-/// COUNT particles [200,000] of each synthetic family, then the files, baked by Sweep with the
-/// filter's defaults.
+/// COUNT particles [200,000] of each synthetic family that is named [all five], and the files,
+/// baked by Sweep with the filter's defaults.
 
 #include "BenchmarkScenes.h"
 #include "StorageCandidates.h"
@@ -280,8 +280,11 @@ int main(int argc, char** argv)
   try
   {
     const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : DefaultCount;
-    std::vector<std::string> names = { "pack", "overlap", "gas", "shell", "foam" };
-    names.insert(names.end(), argv + std::min(argc, 2), argv + argc);
+    std::vector<std::string> names(argv + std::min(argc, 2), argv + argc);
+    if (names.empty())
+    {
+      names = { "pack", "overlap", "gas", "shell", "foam" };
+    }
     std::cout
       << "| set | storage | bytes a particle | difference | added error | ns a lookup | frame |\n"
          "| --- | --- | ---: | ---: | ---: | ---: | ---: |\n";

@@ -24,7 +24,7 @@ SOURCE = HERE.parent.parent
 SHIPPED_REFERENCES = HERE / "References"
 
 # The levels of each method, from coarse to fine. Another method needs a line here and one in
-# makeMethod() of BenchmarkError.cxx.
+# makeMethod() of MeasuredMethod.cxx.
 METHODS = {
     "Reference": [4, 9, 16, 25, 49, 100, 196],    # samples a texel
     "Sweep": [16, 32, 64, 128, 256, 512, 1024],   # directions

@@ -2,6 +2,8 @@
 #ifndef po_ExrTestSupport_h
 #define po_ExrTestSupport_h
 
+#include "TemporaryFolder.h"
+
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkNew.h"
@@ -19,30 +21,6 @@
 #include <csignal>
 #include <sys/resource.h>
 #endif
-
-/// A folder of its own for a test; removed afterwards.
-class TemporaryFolder
-{
-public:
-  TemporaryFolder()
-    : path_(std::filesystem::temp_directory_path() /
-        ("ParticleOcclusion-" + std::to_string(std::random_device()())))
-  {
-    std::filesystem::create_directory(path_);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  std::size_t count() const
-  {
-    return std::distance(std::filesystem::directory_iterator(path_), {});
-  }
-
-private:
-  std::filesystem::path path_;
-};
 
 using Bytes = std::vector<char>;
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <memory>
 #include <random>
+#include <thread>
 
 namespace
 {
@@ -88,5 +89,29 @@ TEST_P(Aborts, AHundredAtRandomMomentsLeaveTheNextBakeItsBits)
     EXPECT_TRUE(again.rowOf == whole.rowOf);
     EXPECT_TRUE(again.mean == whole.mean);
   }
+}
+
+/// One that takes hours unless it is heard, so that the time limit of the test is met.
+TEST_P(Aborts, StopABakeOfHours)
+{
+  std::vector<po::Sphere> spheres;
+  addClosedShell(spheres, 300, 1, 50000);
+  const po::SphereCloud cloud = cloudOf(spheres);
+  const auto caller = std::this_thread::get_id();
+  double last = 0;
+  int reports = 0;
+  po::Progress progress(
+    [&](double share)
+    {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      EXPECT_GE(share, last);
+      last = share;
+      return ++reports < 3;
+    });
+  const po::BakeResult result = po::bakeOcclusion(
+    po::BakeScene(cloud), floatSettings(16, 100000), *GetParam().make(0), progress);
+  EXPECT_TRUE(result.aborted);
+  EXPECT_EQ(reports, 3);
+  EXPECT_LT(last, 0.1);
 }
 }

@@ -4,6 +4,7 @@
 #include "BakeCost.h"
 #include "BakeFilterTestSupport.h"
 
+#include "vtkBakeResources.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkNew.h"
@@ -95,29 +96,55 @@ TEST(BakeCost, GrowsWithTheWork)
   EXPECT_EQ(secondsOf(target), 0);
 }
 
-TEST(BakeCost, IsSaidInWords)
+TEST(BakeCost, CountsTheTexturesThatStay)
 {
-  EXPECT_EQ(po::describe({ 10, 1e9 }, 0, 2, 4e9), "");
-  EXPECT_EQ(po::describe({ 24, 0.25e9 }, 1000, 2, 4e9),
-    "About 12 s (4 s to 36 s) on 2 cores for 1000 particles; at most 250 MB of memory, 4.0 GB are "
-    "free");
-  EXPECT_EQ(po::describe({ 0.1, 8e9 }, 7, 1, 4e9),
-    "About a second on 1 core for 7 particles; at most 8.0 GB of memory, 4.0 GB are free: too "
-    "little");
-  EXPECT_EQ(po::describe({ 0, 1e6 }, 7, 1, 4e9).rfind("As long as the target error takes", 0), 0u);
-  EXPECT_EQ(po::describe({ 7200 * 4, 1e6 }, 7, 4, 4e9).rfind("About 2 h (40 min to 6 h)", 0), 0u);
+  po::BakeWork work = workOf(1000, Filter::Sweep);
+  const po::BakeCost full = po::estimateCost(work);
+  EXPECT_EQ(full.textureBytes, 1000 * (256 + 4));
+  EXPECT_FALSE(full.texturesPacked);
+  work.settings.storage = po::Storage::Compressed;
+  EXPECT_TRUE(po::estimateCost(work).texturesPacked);
+  EXPECT_EQ(po::estimateCost(work).textureBytes, full.textureBytes);
+  work.settings.storage = po::Storage::OneValue;
+  EXPECT_EQ(po::estimateCost(work).textureBytes, 1000 * 4);
+  EXPECT_LT(po::estimateCost(work).bytes, full.bytes);
+  work.settings.storage = po::Storage::Full;
+  work.settings.encoding = po::Encoding::Float32Linear;
+  EXPECT_EQ(po::estimateCost(work).textureBytes, 1000 * (4 * 256 + 4));
 }
 
-TEST(BakeCost, OfTheFilterIsThatOfItsInput)
+TEST(BakeCost, IsSaidInWords)
+{
+  EXPECT_EQ(po::describe({ 10, 1e9, 1e6, false }, 0, 2, 4e9), "");
+  EXPECT_EQ(po::describe({ 24, 0.25e9, 6.7e6, false }, 1000, 2, 4e9),
+    "About 12 s on 2 cores\n(4 s to 36 s)\nUses up to 250 MB\n(4.0 GB free)\n"
+    "Keeps up to 7 MB");
+  EXPECT_EQ(po::describe({ 0.1, 8e9, 1e9, true }, 7, 1, 4e9),
+    "A second on 1 core\nUses up to 8.0 GB\n(4.0 GB free: too little)\n"
+    "Keeps less than 1.0 GB");
+  EXPECT_EQ(
+    po::describe({ 0, 1e6, 1e6, false }, 7, 1, 4e9).rfind("Time: by Target Error\n", 0), 0u);
+  EXPECT_EQ(po::describe({ 7200 * 4, 1e6, 1e6, false }, 7, 4, 4e9)
+              .rfind("About 2 h on 4 cores\n(40 min to 6 h)", 0),
+    0u);
+}
+
+TEST(BakeCost, OfTheFilterIsThatOfItsInputAndItsStorage)
 {
   vtkNew<Filter> filter;
   EXPECT_STREQ(filter->GetBakeEstimate(), "");
   filter->SetInputData(lattice(3));
-  EXPECT_NE(std::string(filter->GetBakeEstimate()).find("for 27 particles"), std::string::npos);
-  filter->SetTextureResolution(32);
-  EXPECT_NE(std::string(filter->GetBakeEstimate()).find("memory"), std::string::npos);
-  EXPECT_GE(filter->GetNumberOfCores(), 1);
-  EXPECT_GT(filter->GetFreeMemory(), 1e6);
+  EXPECT_NE(std::string(filter->GetBakeEstimate()).find("Keeps up to 1 MB"), std::string::npos);
+  filter->SetStorage(static_cast<int>(po::Storage::Compressed));
+  filter->SetTextureResolution(64);
+  EXPECT_NE(std::string(filter->GetBakeEstimate()).find("Keeps less than 1 MB"), std::string::npos);
+}
+
+TEST(BakeCost, IsForTheResourcesOfThisProcess)
+{
+  vtkNew<vtkBakeResources> resources;
+  EXPECT_GE(resources->GetNumberOfCores(), 1);
+  EXPECT_GT(resources->GetFreeMemory(), 1e6);
 }
 
 /// The texts that a bake reports, without their shares.

@@ -11,7 +11,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -76,19 +75,6 @@ po::Occluders cube(float reach)
   return occluders;
 }
 
-TEST(EmbreeEstimator, ALoneSphereIsExactlyOpen)
-{
-  for (const int resolution : { 1, 2, 3, 16, 33, 64 })
-  {
-    const po::SphereCloud cloud = cloudOf({ { 7, -3, 1e5f, 0.01f } });
-    const Estimates ours =
-      estimateAll(po::EmbreeEstimator(), po::BakeScene(cloud), floatSettings(resolution, 49));
-    EXPECT_EQ(*std::min_element(ours.values.begin(), ours.values.end()), 1.0f) << resolution;
-    EXPECT_EQ(*std::max_element(ours.values.begin(), ours.values.end()), 1.0f) << resolution;
-    EXPECT_EQ(*std::min_element(ours.shares.begin(), ours.shares.end()), 1.0f) << resolution;
-  }
-}
-
 TEST(EmbreeEstimator, AClosedShellIsDarkInside)
 {
   // Near and far: its spheres are listed, or met by rays.
@@ -102,51 +88,6 @@ TEST(EmbreeEstimator, AClosedShellIsDarkInside)
     EXPECT_EQ(*std::max_element(ours.values.begin(), ours.values.begin() + 64), 0.0f);
     EXPECT_GT(*std::max_element(ours.values.begin() + 64, ours.values.end()), 0.9f);
   }
-}
-
-TEST(EmbreeEstimator, AgreesWithReferenceInAllFamilies)
-{
-  for (const po::SyntheticFamily family : { po::SyntheticFamily::Pack, po::SyntheticFamily::Overlap,
-         po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
-  {
-    SCOPED_TRACE(static_cast<int>(family));
-    expectLikeReference(syntheticScene(family, 150), floatSettings(4, 49), 0.012);
-  }
-}
-
-TEST(EmbreeEstimator, AgreesWithReferenceAtAnyResolution)
-{
-  for (const int resolution : { 1, 2, 5, 16 })
-  {
-    SCOPED_TRACE(resolution);
-    expectLikeReference(mixedScene(), floatSettings(resolution, 49), 0.012);
-  }
-}
-
-TEST(EmbreeEstimator, AgreesWithReferenceWithinAMaximumDistance)
-{
-  for (const double distance : { 0.2, 1.0, 4.0 })
-  {
-    SCOPED_TRACE(distance);
-    po::BakeSettings settings = floatSettings(6, 49);
-    settings.maximumDistance = distance;
-    expectLikeReference(mixedScene(), settings);
-  }
-}
-
-TEST(EmbreeEstimator, AgreesWithReferenceUnderAnyBackground)
-{
-  po::BakeSettings settings = floatSettings(6, 49);
-  settings.background = po::GradientBackground{ { 1, 1, 0 }, 0.1, 1 };
-  expectLikeReference(mixedScene(), settings);
-  // Bright in one half, black in the other: half of the directions are skipped.
-  settings.background = po::ImageBackground{ 4, 2, { 1, 1, 1, 1, 0, 0, 0, 0 } };
-  expectLikeReference(mixedScene(), settings);
-}
-
-TEST(EmbreeEstimator, AgreesWithReferenceForRadiiOfOneToTenThousand)
-{
-  expectLikeReference(wideScene(), floatSettings(6, 49), 0.012);
 }
 
 TEST(EmbreeEstimator, AgreesWithReferenceWhereMoreSpheresAreNearThanAreListed)
@@ -339,52 +280,6 @@ TEST(EmbreeEstimator, GivesTheSameBitsForAnyNumberOfThreads)
   }
 }
 
-TEST(EmbreeEstimator, TouchingCoincidentAndNestedSpheresHaveNoFalseHits)
-{
-  const po::SphereCloud coincident =
-    cloudOf(std::vector<po::Sphere>(3, po::Sphere{ 100, 200, 300, 0.5f }));
-  const Estimates open =
-    estimateAll(po::EmbreeEstimator(), po::BakeScene(coincident), floatSettings(8, 49));
-  // Each sees the whole sky, as none hides the others.
-  EXPECT_EQ(*std::min_element(open.values.begin(), open.values.end()), 1.0f);
-
-  const po::SphereCloud nested = cloudOf({ { 0, 0, 0, 1 }, { 0.25f, 0, 0, 0.5f } });
-  const Estimates both =
-    estimateAll(po::EmbreeEstimator(), po::BakeScene(nested), floatSettings(8, 49));
-  EXPECT_EQ(*std::min_element(both.values.begin(), both.values.begin() + 64), 1.0f);
-  EXPECT_EQ(*std::max_element(both.shares.begin() + 64, both.shares.end()), 0.0f);
-}
-
-TEST(EmbreeEstimator, IsAsGoodAsTheRaysThatItStandsFor)
-{
-  // The default number of directions against 49 jittered rays a texel, in three kinds of scenes.
-  std::vector<po::Sphere> lattice;
-  for (int i = 0; i < 343; ++i)
-  {
-    lattice.push_back({ static_cast<float>(i % 7), static_cast<float>(i / 7 % 7),
-      static_cast<float>(i / 49), 0.5f });
-  }
-  std::vector<po::Sphere> sparse = lattice;
-  for (po::Sphere& s : sparse)
-  {
-    s.radius = 0.2f;
-  }
-  for (const std::vector<po::Sphere>& spheres : { mixedScene(), lattice, sparse })
-  {
-    const po::SphereCloud cloud = cloudOf(spheres);
-    const po::BakeScene scene(cloud);
-    po::BakeSettings settings = floatSettings(8, 3000);
-    settings.seed = 77;
-    const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, settings);
-    settings = floatSettings(8, 49);
-    const double reference =
-      compare(estimateAll(po::ReferenceEstimator(), scene, settings), judge, 8).rms;
-    const double embree =
-      compare(estimateAll(po::EmbreeEstimator(), scene, settings), judge, 8).rms;
-    EXPECT_LT(embree, 1.1 * reference);
-  }
-}
-
 TEST(EmbreeEstimator, ReachesATargetErrorParticleByParticle)
 {
   const po::SphereCloud cloud = cloudOf(mixedScene());
@@ -424,22 +319,6 @@ TEST(EmbreeEstimator, SaysWhatItDid)
   EXPECT_EQ(embree.report().directions + static_cast<int>(result.counters.directionsBlack), 100);
   EXPECT_GT(result.counters.directionsBlack, 0u);
   EXPECT_GT(embree.report().estimatedError, 0);
-}
-
-TEST(EmbreeEstimator, AbortsWithinASecond)
-{
-  std::vector<po::Sphere> spheres;
-  addClosedShell(spheres, 300, 1, 50000);
-  const po::SphereCloud cloud = cloudOf(spheres);
-  const po::BakeScene scene(cloud);
-  const auto start = std::chrono::steady_clock::now();
-  po::Progress progress([&](double)
-    { return std::chrono::steady_clock::now() - start < std::chrono::milliseconds(300); });
-  const po::BakeResult result =
-    po::bakeOcclusion(scene, floatSettings(64, 100000), po::EmbreeEstimator(), progress);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_TRUE(result.aborted);
-  EXPECT_LT(seconds.count(), 1.3);
 }
 
 TEST(EmbreeEstimator, AListGetsWhatTheWholeSetGets)

@@ -10,11 +10,9 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <thread>
 
 namespace
 {
@@ -335,31 +333,6 @@ TEST(OcclusionBaker, RefinesAsRaysAreAdded)
     return std::sqrt(sum / (16.0 * static_cast<double>(spheres.size())));
   };
   EXPECT_GT(rms(16) / rms(256), 3);
-}
-
-TEST(OcclusionBaker, AbortsWithinASecondAndReportsProgressOnTheCallingThread)
-{
-  // Far more work than a second's: 200 particles, 64 x 64 texels, 10,000 rays each.
-  std::vector<po::Sphere> spheres;
-  addClosedShell(spheres, 20, 1, 200);
-  const auto caller = std::this_thread::get_id();
-  const auto start = std::chrono::steady_clock::now();
-  double last = -1;
-  po::Progress progress(
-    [&](double share)
-    {
-      EXPECT_EQ(std::this_thread::get_id(), caller);
-      EXPECT_GE(share, last);
-      last = share;
-      return std::chrono::steady_clock::now() - start < std::chrono::milliseconds(300);
-    });
-  const po::SphereCloud cloud = cloudOf(spheres);
-  const po::BakeResult result = po::bakeOcclusion(
-    po::BakeScene(cloud), floatSettings(64, 10000), po::ReferenceEstimator(), progress);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_TRUE(result.aborted);
-  EXPECT_GE(last, 0);
-  EXPECT_LT(seconds.count(), 1.3);
 }
 
 TEST(OcclusionBaker, ThePilotFindsTheSamplesThatReachAnError)

@@ -178,6 +178,7 @@ TEST(RayTracedSphereMapper, DefaultsAreThoseOfTheXml)
     { "Shadows", mapper->GetShadows() },
     { "SamplesPerPixel", mapper->GetSamplesPerPixel() },
     { "InteractiveRate", mapper->GetInteractiveRate() },
+    { "TextureBudget", mapper->GetTextureBudget() },
   };
   for (const auto& [name, value] : defaults)
   {

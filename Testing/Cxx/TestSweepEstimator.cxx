@@ -13,7 +13,6 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -25,35 +24,6 @@ po::SweepEstimator sweepOf(int directions)
   po::SweepOptions options;
   options.directions = directions;
   return po::SweepEstimator(options);
-}
-
-/// Sweep against Reference with many rays: no bias above 0.002 and an RMS difference that D = 2048
-/// directions leave (measured below 0.006 in these scenes, of which the judge's part is 0.003).
-void expectLikeReference(
-  const std::vector<po::Sphere>& spheres, const po::BakeSettings& settings, double rms = 0.01)
-{
-  const po::SphereCloud cloud = cloudOf(spheres);
-  const po::BakeScene scene(cloud);
-  po::BakeSettings fine = settings;
-  fine.samplesPerTexel = 4000;
-  const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, fine);
-  const Estimates ours = estimateAll(sweepOf(2048), scene, settings);
-  const Difference difference = compare(ours, judge, settings.textureResolution);
-  EXPECT_LT(difference.rms, rms);
-  EXPECT_LT(std::abs(difference.bias), 0.002);
-}
-
-TEST(SweepEstimator, ALoneSphereIsExactlyOpen)
-{
-  for (const int resolution : { 1, 2, 3, 16, 33, 64 })
-  {
-    const po::SphereCloud cloud = cloudOf({ { 7, -3, 1e5f, 0.01f } });
-    const Estimates ours =
-      estimateAll(po::SweepEstimator(), po::BakeScene(cloud), floatSettings(resolution, 49));
-    EXPECT_EQ(*std::min_element(ours.values.begin(), ours.values.end()), 1.0f) << resolution;
-    EXPECT_EQ(*std::max_element(ours.values.begin(), ours.values.end()), 1.0f) << resolution;
-    EXPECT_EQ(*std::min_element(ours.shares.begin(), ours.shares.end()), 1.0f) << resolution;
-  }
 }
 
 TEST(SweepEstimator, AClosedShellIsDarkInside)
@@ -91,51 +61,6 @@ TEST(SweepEstimator, AgreesWithAnIndependentJudge)
   const Difference difference = compare(ours, found, 6);
   EXPECT_LT(difference.rms, 0.01);
   EXPECT_LT(std::abs(difference.bias), 0.002);
-}
-
-TEST(SweepEstimator, AgreesWithReferenceInAllFamilies)
-{
-  for (const po::SyntheticFamily family : { po::SyntheticFamily::Pack, po::SyntheticFamily::Overlap,
-         po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
-  {
-    SCOPED_TRACE(static_cast<int>(family));
-    expectLikeReference(syntheticScene(family, 150), floatSettings(4, 49), 0.012);
-  }
-}
-
-TEST(SweepEstimator, AgreesWithReferenceAtAnyResolution)
-{
-  for (const int resolution : { 1, 2, 5, 16 })
-  {
-    SCOPED_TRACE(resolution);
-    expectLikeReference(mixedScene(), floatSettings(resolution, 49), 0.012);
-  }
-}
-
-TEST(SweepEstimator, AgreesWithReferenceWithinAMaximumDistance)
-{
-  for (const double distance : { 0.2, 1.0, 4.0 })
-  {
-    SCOPED_TRACE(distance);
-    po::BakeSettings settings = floatSettings(6, 49);
-    settings.maximumDistance = distance;
-    expectLikeReference(mixedScene(), settings);
-  }
-}
-
-TEST(SweepEstimator, AgreesWithReferenceUnderAnyBackground)
-{
-  po::BakeSettings settings = floatSettings(6, 49);
-  settings.background = po::GradientBackground{ { 1, 1, 0 }, 0.1, 1 };
-  expectLikeReference(mixedScene(), settings);
-  // Bright in one half, black in the other: half of the directions are skipped.
-  settings.background = po::ImageBackground{ 4, 2, { 1, 1, 1, 1, 0, 0, 0, 0 } };
-  expectLikeReference(mixedScene(), settings);
-}
-
-TEST(SweepEstimator, AgreesWithReferenceForRadiiOfOneToTenThousand)
-{
-  expectLikeReference(wideScene(), floatSettings(6, 49), 0.012);
 }
 
 TEST(SweepEstimator, GivesTheSameBitsForAnyNumberOfThreads)
@@ -179,51 +104,6 @@ TEST(SweepEstimator, GivesTheSameBitsInAnyNumberOfParts)
       EXPECT_GT(sweep.report().estimatedError, 0);
       EXPECT_DOUBLE_EQ(sweep.bytesPerTexel() * parts, po::SweepEstimator().bytesPerTexel());
     }
-  }
-}
-
-TEST(SweepEstimator, TouchingCoincidentAndNestedSpheresHaveNoFalseHits)
-{
-  const po::SphereCloud coincident =
-    cloudOf(std::vector<po::Sphere>(3, po::Sphere{ 100, 200, 300, 0.5f }));
-  const Estimates open =
-    estimateAll(po::SweepEstimator(), po::BakeScene(coincident), floatSettings(8, 49));
-  // Each sees the whole sky, as none hides the others.
-  EXPECT_EQ(*std::min_element(open.values.begin(), open.values.end()), 1.0f);
-
-  const po::SphereCloud nested = cloudOf({ { 0, 0, 0, 1 }, { 0.25f, 0, 0, 0.5f } });
-  const Estimates both =
-    estimateAll(po::SweepEstimator(), po::BakeScene(nested), floatSettings(8, 49));
-  EXPECT_EQ(*std::min_element(both.values.begin(), both.values.begin() + 64), 1.0f);
-  EXPECT_EQ(*std::max_element(both.shares.begin() + 64, both.shares.end()), 0.0f);
-}
-
-TEST(SweepEstimator, IsAsGoodAsTheRaysThatItStandsFor)
-{
-  // The default number of directions against 49 jittered rays a texel, in three kinds of scenes.
-  std::vector<po::Sphere> lattice;
-  for (int i = 0; i < 343; ++i)
-  {
-    lattice.push_back({ static_cast<float>(i % 7), static_cast<float>(i / 7 % 7),
-      static_cast<float>(i / 49), 0.5f });
-  }
-  std::vector<po::Sphere> sparse = lattice;
-  for (po::Sphere& s : sparse)
-  {
-    s.radius = 0.2f;
-  }
-  for (const std::vector<po::Sphere>& spheres : { mixedScene(), lattice, sparse })
-  {
-    const po::SphereCloud cloud = cloudOf(spheres);
-    const po::BakeScene scene(cloud);
-    po::BakeSettings settings = floatSettings(8, 3000);
-    settings.seed = 77;
-    const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, settings);
-    settings = floatSettings(8, 49);
-    const double reference =
-      compare(estimateAll(po::ReferenceEstimator(), scene, settings), judge, 8).rms;
-    const double sweep = compare(estimateAll(po::SweepEstimator(), scene, settings), judge, 8).rms;
-    EXPECT_LT(sweep, 1.1 * reference);
   }
 }
 
@@ -286,22 +166,6 @@ TEST(ProgressiveSweep, HandsOutAPreviewAndRefinesIt)
     last = error;
   }
   EXPECT_EQ(sweep.directions(), 16 + 32 + 144 + 800);
-}
-
-TEST(SweepEstimator, AbortsWithinASecond)
-{
-  std::vector<po::Sphere> spheres;
-  addClosedShell(spheres, 300, 1, 50000);
-  const po::SphereCloud cloud = cloudOf(spheres);
-  const po::BakeScene scene(cloud);
-  const auto start = std::chrono::steady_clock::now();
-  po::Progress progress([&](double)
-    { return std::chrono::steady_clock::now() - start < std::chrono::milliseconds(300); });
-  const po::BakeResult result =
-    po::bakeOcclusion(scene, floatSettings(16, 100000), po::SweepEstimator(), progress);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  EXPECT_TRUE(result.aborted);
-  EXPECT_LT(seconds.count(), 1.3);
 }
 
 TEST(SweepEstimator, AListGetsWhatTheWholeSetGets)

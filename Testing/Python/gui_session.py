@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a user does in the ParaView window: load the plugin, open a file, apply the filter, choose the
 representation, outline it, save a picture and the state; switch representations, change colours, crop, select,
-load the state, and wait for smooth edges. Run by test_gui.py inside `paraview`."""
+load the state, and wait for textures of a file and smooth edges. Run by test_gui.py inside `paraview`."""
 import os
 import traceback
 
@@ -32,8 +32,9 @@ def session():
     Render(view)
     SaveScreenshot(os.path.join(OUTPUT, "gui.png"), view, ImageResolution=[400, 300])
     use_display(baked, display, view)
+    SaveData(os.path.join(OUTPUT, "textures.exr"), baked)
     SaveState(os.path.join(OUTPUT, "gui.pvsm"))
-    wait_for_smooth_edges(*load_state())
+    wait_for_textures_and_smooth_edges(*load_state())
 
 
 def counter(display, name):
@@ -91,22 +92,25 @@ def load_state():
     raise RuntimeError("the state has lost the crop range")
 
 
-def wait_for_smooth_edges(view, display):
+def wait_for_textures_and_smooth_edges(view, display):
     """Goes on in ParaView's event loop, after this script."""
     SetActiveView(view)
+    display.TextureFile = os.path.join(OUTPUT, "textures.exr")
     display.SamplesPerPixel = 8
     view.CameraViewAngle = 31
     Render(view)
     expect(counter(display, "NumberOfSamples") == 1, "the first picture was not shown at once")
+    expect(counter(display, "NumberOfMissingTextures") > 0, "the first picture has waited for textures")
     interactor = view.GetInteractor()
     waits = []
 
     def look(*_):
         waits.append(1)
-        if counter(display, "NumberOfSamples") == 8:
+        samples, missing = counter(display, "NumberOfSamples"), counter(display, "NumberOfMissingTextures")
+        if samples == 8 and missing == 0 and counter(display, "NumberOfResidentTextures") > 0:
             end("passed")
         elif len(waits) > 600:
-            end(f"the picture has {counter(display, 'NumberOfSamples')} of 8 rays a pixel after a minute")
+            end(f"after a minute the picture has {samples} of 8 rays a pixel and lacks {missing} textures")
 
     interactor.AddObserver("TimerEvent", look)
     interactor.CreateRepeatingTimer(100)

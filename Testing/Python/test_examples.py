@@ -12,7 +12,6 @@ import tempfile
 import images
 import servers
 from paraview import servermanager, simple
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 PVPYTHON, PYTHON, MPIEXEC, PACKAGES = sys.argv[1:5]
 DATA = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Data"))
@@ -53,22 +52,27 @@ def check_figure(folder):
 
 
 def check_batch(folder):
-    """Two processes share three files and one that cannot be read."""
-    missing = os.path.join(folder, "broken.vtp")
-    with open(missing, "w", encoding="utf-8") as file:
-        file.write("no particles")
+    """Two processes share files of several kinds, and two that cannot be read."""
+    files = {name: os.path.join(folder, name) for name in ("broken.vtp", "water.xyz", "heap.vtu", "notes.text")}
+    for name, text in (("broken.vtp", "no particles"), ("notes.text", "none"),
+                       ("water.xyz", "3\n\nO 0 0 0\nH 0.96 0 0\nH -0.24 0.93 0\n")):
+        with open(files[name], "w", encoding="utf-8") as file:
+            file.write(text)
+    simple.SaveData(files["heap.vtu"], simple.AppendDatasets(Input=simple.OpenDataFile(HEAP)), DataMode="Binary")
     out = os.path.join(folder, "baked")
-    printed, _ = run(MPIEXEC, "-n", "2", PYTHON, script("batch.py"), "--output", out, "--samples", "4",
-                     BULLET, HEAP, MOLECULE, missing, code=1)
-    for name, count in (("bullet_1000", 25710), ("heap", 6075), ("molecule", 3341)):
-        assert f"{name}.vtp\t{count:,}\t" in printed, printed
-        reader = vtkXMLPolyDataReader()
-        reader.SetFileName(os.path.join(out, name + ".vtp"))
-        reader.Update()
-        assert reader.GetOutput().GetNumberOfPoints() == count
-        assert reader.GetOutput().GetFieldData().GetAbstractArray("AmbientOcclusionTextures")
-    assert "broken.vtp\tfailed" in printed, printed
-    assert not os.path.exists(os.path.join(out, "broken.vtp"))
+    printed, _ = run(MPIEXEC, "-n", "2", PVPYTHON, "--no-mpi", script("batch.py"), "--output", out, "--samples", "4",
+                     BULLET, MOLECULE, *files.values(), code=1)
+    for name, result, count in (("bullet_1000.vtp", "bullet_1000.vtp", 25710), ("molecule.vtp", "molecule.vtp", 3341),
+                                ("heap.vtu", "heap.vtu", 6075), ("water.xyz", "water.vtp", 3)):
+        assert f"{name}\t{count:,}\t" in printed, printed
+        data = servermanager.Fetch(simple.OpenDataFile(os.path.join(out, result)))
+        assert data.GetNumberOfPoints() == count
+        assert data.GetFieldData().GetAbstractArray("AmbientOcclusionTextures")
+    _, complaint = run(PVPYTHON, script("batch.py"), "--output", out, "a/step.xyz", "b/step.vtp", code=1)
+    assert "Several files would become step" in complaint, complaint
+    for name in ("broken.vtp", "notes.text"):
+        assert f"{name}\tfailed" in printed, printed
+    assert len(os.listdir(out)) == 4, os.listdir(out)
 
 
 def check_statistics(folder):
@@ -90,15 +94,31 @@ def check_plain_vtk(folder):
     images.compare(picture, "plain-vtk.png")
 
 
+#: Beginnings of the names of what the plugin adds to a display and a view of ParaView's.
+ADDED = ("Silhouette", "Crop", "Radius", "ConstantRadius", "Density", "Shading", "OcclusionOn", "Shadows", "SamplesPer",
+         "InteractiveRate", "Layers", "DisplayPresets")
+
+
+def require_help(proxy, least, beginnings=""):
+    """help() describes the proxy and at least so many properties whose names begin so, none of them with nothing."""
+    help_of = {key: value.__doc__ for key, value in vars(type(proxy)).items()
+               if isinstance(value, property) and key.startswith(beginnings)}
+    assert len(help_of) >= least and len(type(proxy).__doc__) > 50, (list(help_of), type(proxy).__doc__)
+    silent = [key for key, text in help_of.items() if not (text or "").strip()]
+    assert not silent, f"{type(proxy).__name__} says nothing of {silent}"
+
+
 def check_help(_):
-    """help() of what the plugin's functions return describes the filter and every property of it."""
-    simple.LoadPlugin(os.environ["PARTICLEOCCLUSION_PLUGIN"])
-    for name, least in (("SphereAmbientOcclusion", 20), ("DepthSilhouettes", 10), ("LoadOcclusionTexturesEXR", 2)):
-        proxy = getattr(servermanager.filters, name)
-        help_of = {key: value.__doc__ for key, value in vars(proxy).items() if isinstance(value, property)}
-        assert len(help_of) >= least and len(proxy.__doc__) > 50, (name, list(help_of), proxy.__doc__)
-        silent = [key for key, text in help_of.items() if not (text or "").strip()]
-        assert not silent, f"{name} says nothing of {silent}"
+    """help() of filters, the reader, a display and the view describes each, and every property that is the plugin's."""
+    simple.LoadPlugin(os.environ["PARTICLEOCCLUSION_PLUGIN"], ns=vars(simple))
+    baked = simple.SphereAmbientOcclusion(Input=simple.OpenDataFile(HEAP))
+    view = simple.CreateView("RenderViewWithSilhouettes")
+    require_help(baked, 20)
+    require_help(simple.DepthSilhouettes(Input=simple.Wavelet()), 10)
+    require_help(simple.LoadOcclusionTexturesEXR(Input=baked), 2)
+    require_help(simple.LAMMPSDumpandXYZReader(), 2)
+    require_help(simple.Show(baked, view), 35, ADDED)
+    require_help(view, 18, "Silhouette")
 
 
 with tempfile.TemporaryDirectory() as work:

@@ -15,9 +15,11 @@ PLUGIN = os.environ["PARTICLEOCCLUSION_PLUGIN"]
 
 def main():
     home = tempfile.mkdtemp(prefix="particleocclusion-first-hour-")
-    environment = dict(os.environ, HOME=home, XDG_CONFIG_HOME=os.path.join(home, ".config"))
+    # As ParaView loads what is installed: at its start, before the window is there.
+    listed = os.path.join(os.path.dirname(os.path.dirname(PLUGIN)), "ParticleOcclusion.plugins.xml")
+    environment = dict(os.environ, HOME=home, XDG_CONFIG_HOME=os.path.join(home, ".config"),
+                       PV_PLUGIN_CONFIG_FILE=listed)
     command = [sys.argv[1], "--dr", "--exit",
-               f"--plugin-search-paths={os.path.dirname(PLUGIN)}", "--plugins=ParticleOcclusion",
                f"--data={os.path.join(HERE, '..', '..', 'Data', 'heap.vtp')}",
                f"--test-script={os.path.join(HERE, 'gui_first_hour.xml')}"]
     try:
