@@ -11,6 +11,7 @@ from paraview.simple import *
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "Examples"))
 import plugin  # noqa: E402
+import scene  # noqa: E402
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 OUTPUT = os.path.join(ROOT, "demo-output")
@@ -29,53 +30,19 @@ def bake(particles):
 
 
 def make_view():
-    view = CreateView("RenderViewWithSilhouettes")
-    view.ViewSize = SIZE
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.BackgroundColorMode = "Single Color"
-    view.Background = [1, 1, 1]
-    view.UseFXAA = 0
+    view = scene.make_view(SIZE, "RenderViewWithSilhouettes")
     view.SilhouetteVisibility = 0
+    scene.light_from_the_side(view)
     return view
-
-
-def light_from_the_side(view):
-    """A directional light from the upper left, in place of the headlight, so that shadows show."""
-    view.UseLight = 0
-    light = AddLight(view=view)
-    light.Coords = "Camera"
-    light.Type = "Directional"
-    light.Position = [-0.9, 1.1, 1.4]
-    light.FocalPoint = [0, 0, 0]
-    light.DiffuseColor = [1, 1, 1]
-    light.Intensity = 1
-
-
-def show_spheres(baked, view):
-    display = Show(baked, view)
-    display.SetRepresentationType("Ray-Traced Spheres")
-    display.ColorArrayName = ["POINTS", ""]
-    display.DiffuseColor = [0.92, 0.9, 0.86]
-    display.AmbientColor = display.DiffuseColor
-    return display
 
 
 def aim_camera(view):
     """Obliquely onto the struck face."""
-    ResetCamera(view)
-    camera = view.GetActiveCamera()
-    camera.Elevation(-52)
-    camera.Azimuth(18)
-    camera.OrthogonalizeViewUp()
-    ResetCamera(view)
-    camera.Zoom(1.5)
+    scene.aim_camera(view, -52, 18, 1.5)
 
 
 def colour_by_damage(display, view):
-    ColorBy(display, ("POINTS", "damage"))
-    damage = GetColorTransferFunction("damage")
-    damage.ApplyPreset("Viridis (matplotlib)", True)
+    damage = scene.color_by(display, "damage")
     damage.RescaleTransferFunction(0, 1)
     display.SetScalarBarVisibility(view, True)
     bar = GetScalarBar(damage, view)
@@ -145,8 +112,7 @@ def main():
     particles = OpenDataFile(os.path.join(ROOT, "Data", "bullet_1000.vtp"))
     baked = bake(particles)
     view = make_view()
-    light_from_the_side(view)
-    display = show_spheres(baked, view)
+    display = scene.show_spheres(baked, view)
     aim_camera(view)
     save_pictures(display, view)
     save_files(baked, display)

@@ -17,8 +17,9 @@ import tempfile
 from paraview.simple import *
 from PIL import Image
 
-import demo
+import demo  # which finds the examples
 import plugin
+import scene
 
 SIZE = [480, 360]
 PICTURES = os.path.join(demo.ROOT, "Data", "Pictures")
@@ -58,32 +59,19 @@ FOAM = ("foam.vtp", None, 25, 20, 1.25)
 
 def make_view():
     """ParaView's plain render view, with a light from the side."""
-    view = CreateRenderView()
-    view.ViewSize = SIZE
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.BackgroundColorMode = "Single Color"
-    view.Background = [1, 1, 1]
-    view.UseFXAA = 0
-    demo.light_from_the_side(view)
+    view = scene.make_view(SIZE)
+    scene.light_from_the_side(view)
     return view
 
 
 def show(view, path, array, azimuth, elevation, zoom):
     baked = SphereAmbientOcclusion(Input=OpenDataFile(path))
-    display = demo.show_spheres(baked, view)
-    display.OcclusionOnDiffuse, display.Ambient, display.Diffuse = 0, 0.6, 0.6
+    display = scene.show_spheres(baked, view, ambient=0.6, diffuse=0.6)
     display.SamplesPerPixel = 8
     if array:
-        ColorBy(display, ("POINTS", array))
+        scene.color_by(display, array)
         display.SetScalarBarVisibility(view, False)
-    ResetCamera(view)
-    camera = view.GetActiveCamera()
-    camera.Elevation(elevation)
-    camera.Azimuth(azimuth)
-    camera.OrthogonalizeViewUp()
-    ResetCamera(view)
-    camera.Zoom(zoom)
+    scene.aim_camera(view, elevation, azimuth, zoom)
     return display
 
 

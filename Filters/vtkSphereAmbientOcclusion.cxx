@@ -28,8 +28,7 @@ po::Progress::Report reportTo(vtkAlgorithm* algorithm, const po::Progress& progr
 {
   return [algorithm, &progress](double share)
   {
-    const std::string percent = std::to_string(static_cast<int>(100 * share));
-    algorithm->SetProgressText((progress.phase() + ": " + percent + " %").c_str());
+    algorithm->SetProgressText(progress.phase().c_str()); // ParaView adds the share
     algorithm->UpdateProgress(share);
     return !algorithm->CheckAbort();
   };

@@ -31,14 +31,20 @@ install(
     PATTERN "Examples/*.py"
     PATTERN "Examples/*.cxx"
     PATTERN "Examples/CMakeLists.txt"
+    PATTERN "Pictures" EXCLUDE
     PATTERN "__pycache__" EXCLUDE)
-install(
-  FILES       README.md
-  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/particleocclusion"
-  COMPONENT   documentation)
+# The documents with their pictures, in folders as here, so that their links lead somewhere.
+set(documentation "${CMAKE_INSTALL_DATADIR}/doc/particleocclusion")
+file(GLOB documents RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}" CONFIGURE_DEPENDS
+  *.md */README.md Testing/*/*.md Testing/Benchmarks/References/README.md CITATION.cff LICENSE
+  Data/Pictures/*.png Testing/Benchmarks/*.png Filters/Core/*.svg)
+foreach (document IN LISTS documents)
+  cmake_path(GET document PARENT_PATH folder)
+  install(FILES "${document}" DESTINATION "${documentation}/${folder}" COMPONENT documentation)
+endforeach ()
 install(
   FILES       LICENSE
-  DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/particleocclusion"
+  DESTINATION "${documentation}"
   RENAME      copyright
   COMPONENT   documentation)
 

@@ -12,35 +12,19 @@ import os
 from paraview.simple import *
 
 import plugin
+import scene
 
 plugin.load(globals())
 
 
-def make_view(size):
-    view = CreateRenderView()
-    view.ViewSize = [1200, 1200 * size[1] // size[0]]  # letters are as large as in a window of this size
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.BackgroundColorMode = "Single Color"
-    view.Background = [1, 1, 1]
-    view.UseFXAA = 0  # it would blur edges and lines, which are smooth already
-    return view
-
-
 def show(baked, view, color):
-    display = Show(baked, view)
-    display.SetRepresentationType("Ray-Traced Spheres")
-    display.OcclusionOnDiffuse = 0  # occlusion darkens the ambient light alone, as that of an overcast sky
-    display.Ambient, display.Diffuse = 0.7, 0.4
+    display = scene.show_spheres(baked, view, ambient=0.7, diffuse=0.4)
     display.SamplesPerPixel = 16
     display.SilhouetteVisibility = 1
     if color:
-        ColorBy(display, ("POINTS", color))
-        bar = GetScalarBar(GetColorTransferFunction(color), view)
+        bar = GetScalarBar(scene.color_by(display, color), view)
         bar.TitleColor = bar.LabelColor = [0, 0, 0]
         display.SetScalarBarVisibility(view, True)
-    else:
-        display.ColorArrayName = ["POINTS", ""]
     return display
 
 
@@ -55,13 +39,10 @@ def main():
 
     particles = OpenDataFile(os.path.abspath(options.input))
     baked = SphereAmbientOcclusion(Input=particles, TextureResolution=32, TargetError=options.error)
-    view = make_view(options.size)
+    width, height = options.size
+    view = scene.make_view([1200, 1200 * height // width])  # letters are as large as in a window of this size
     display = show(baked, view, options.color)
-    ResetCamera(view)
-    view.GetActiveCamera().Elevation(30)
-    view.GetActiveCamera().Azimuth(20)
-    ResetCamera(view)
-    view.GetActiveCamera().Zoom(1.4)
+    scene.aim_camera(view, 30, 20, 1.4)
     SaveScreenshot(options.output + ".png", view, ImageResolution=options.size)
     display.LayersFile = os.path.abspath(options.output + ".exr")
     display.LayersResolution = options.size

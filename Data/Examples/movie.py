@@ -15,6 +15,7 @@ from vtkmodules.numpy_interface import dataset_adapter
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
 import plugin
+import scene
 
 plugin.load(globals())
 
@@ -43,28 +44,16 @@ def make_series(folder, steps):
 def make_movie(files, options):
     series = OpenDataFile(files)
     baked = SphereAmbientOcclusion(Input=series, SamplesPerTexel=options.samples)
-    view = CreateRenderView()
-    view.ViewSize = options.size
-    view.UseFXAA = 0
-    view.OrientationAxesVisibility = 0
-    view.UseColorPaletteForBackground = 0
-    view.BackgroundColorMode = "Single Color"
-    view.Background = [1, 1, 1]
-    display = Show(baked, view)
-    display.SetRepresentationType("Ray-Traced Spheres")
-    display.OcclusionOnDiffuse = 0  # occlusion darkens the ambient light alone
-    display.Ambient, display.Diffuse = 0.6, 0.5
+    view = scene.make_view(options.size)
+    display = scene.show_spheres(baked, view, ambient=0.6, diffuse=0.5)
     display.SamplesPerPixel = 8  # smooth edges
     display.SilhouetteVisibility = 1
     if options.color:
-        ColorBy(display, ("POINTS", options.color))
+        scene.color_by(display, options.color)
         display.RescaleTransferFunctionToDataRangeOverTime()
     GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
     GetAnimationScene().GoToLast()  # where the particles are spread most
-    ResetCamera(view)
-    view.GetActiveCamera().Elevation(-70)
-    view.GetActiveCamera().OrthogonalizeViewUp()
-    ResetCamera(view)
+    scene.aim_camera(view, -70)
     SaveAnimation(options.output, view, ImageResolution=options.size, FrameRate=12)
 
 

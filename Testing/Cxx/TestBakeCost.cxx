@@ -147,7 +147,7 @@ TEST(BakeCost, IsForTheResourcesOfThisProcess)
   EXPECT_GT(resources->GetFreeMemory(), 1e6);
 }
 
-/// The texts that a bake reports, without their shares.
+/// The texts that a bake reports.
 std::set<std::string> phasesOf(int method)
 {
   vtkNew<Filter> filter;
@@ -162,8 +162,7 @@ std::set<std::string> phasesOf(int method)
     [](vtkObject* caller, unsigned long, void* client, void*)
     {
       const char* text = vtkAlgorithm::SafeDownCast(caller)->GetProgressText();
-      const std::string phase = text ? text : "";
-      static_cast<std::set<std::string>*>(client)->insert(phase.substr(0, phase.find(':')));
+      static_cast<std::set<std::string>*>(client)->insert(text ? text : "");
     });
   filter->AddObserver(vtkCommand::ProgressEvent, command);
   EXPECT_EQ(errorOf(filter), "");

@@ -13,7 +13,10 @@ import sys
 import tarfile
 import tempfile
 
+import links
+
 PVPYTHON, CMAKE, CPACK, BUILD = sys.argv[1:5]
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 PLUGIN = "paraview-5.11/plugins/ParticleOcclusion"
 
 BAKE = """
@@ -84,6 +87,31 @@ def check_program(prefix, folder):
     assert os.path.getsize(picture) > 10000
 
 
+def check_documents(prefix):
+    """The README with all that it leads to; no archive, and nothing empty."""
+    assert os.path.exists(f"{prefix}/share/doc/particleocclusion/README.md")
+    assert not links.broken(prefix), links.broken(prefix)
+    strangers = [path for path, folders, files in os.walk(prefix) if not folders and not files]
+    strangers += glob.glob(f"{prefix}/**/*.a", recursive=True)
+    assert not strangers, strangers
+
+
+def version():
+    with open(f"{BUILD}/CMakeCache.txt", encoding="utf-8") as cache:
+        return re.search(r"^CMAKE_PROJECT_VERSION:STATIC=(.*)$", cache.read(), re.MULTILINE).group(1)
+
+
+def check_version():
+    """What names the version by hand names that of the build."""
+    for path, pattern, named in (("CITATION.cff", r"^version: (.*)$", version()),
+                                 ("CHANGELOG.md", r"^## ([\d.]+)", version()),
+                                 ("Data/Examples/CMakeLists.txt", r"find_package\(ParticleOcclusion ([\d.]+)",
+                                  version().rpartition(".")[0])):
+        with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+            found = re.search(pattern, file.read(), re.MULTILINE).group(1)
+        assert found == named, f"{path} names the version {found} in place of {named}"
+
+
 def pack(kind, folder):
     run(CPACK, "-G", kind, "--config", f"{BUILD}/CPackConfig.cmake", "-B", folder)
     return glob.glob(f"{folder}/particleocclusion[-_]*")[0]
@@ -103,15 +131,13 @@ def check_debian_package(folder):
     depends = run("dpkg-deb", "-f", package, "Depends")
     for name in ("paraview (>= 5.11", "paraview (<< 5.1", "libembree", "libtbb", "libopenexr"):
         assert name in depends, depends
-    version = run("dpkg-deb", "-f", package, "Version").strip()
-    with open(f"{BUILD}/CMakeCache.txt", encoding="utf-8") as cache:
-        assert f"CMAKE_PROJECT_VERSION:STATIC={version}\n" in cache.read(), version
+    assert run("dpkg-deb", "-f", package, "Version").strip() == version()
     with open(f"{root}/usr/bin/paraview.conf", encoding="utf-8") as file:
         listed = os.path.join(f"{root}/usr/bin", file.read().strip())
     with open(listed, encoding="utf-8") as file:
         assert re.search('name="ParticleOcclusion" auto_load="1"', file.read())
     run_python(BAKE, f"{root}/usr", PV_PLUGIN_CONFIG_FILE=listed)
-    strangers = [path for path in glob.glob(f"{root}/**/*", recursive=True) if re.search(r"\.a$|/Testing|\.cxx\.o$", path)]
+    strangers = [path for path in glob.glob(f"{root}/**/*", recursive=True) if re.search(r"\.a$|\.o$|/Testing/.*\.(cxx|h|py|sh)$", path)]
     assert not strangers, strangers
 
 
@@ -122,6 +148,8 @@ def main():
         run(CMAKE, "--install", BUILD, "--prefix", f"{folder}/prefix")
         check_no_trace_of_build(f"{folder}/prefix")
         assert not os.path.exists(f"{folder}/prefix/bin/paraview.conf")
+        check_documents(f"{folder}/prefix")
+        check_version()
         check_prefix(f"{folder}/prefix")
         check_program(f"{folder}/prefix", folder)
         check_archive(folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs every Python script of the documents as it stands, each in a process of its own.
+"""Runs every Python script of the documents as it stands, each in a process of its own; all their links lead somewhere.
 
 Usage: pvpython test_readme.py PVPYTHON
 """
@@ -8,6 +8,8 @@ import re
 import subprocess
 import sys
 import tempfile
+
+import links
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 PLUGIN_IN_DOCUMENTS = "build/lib/paraview-5.11/plugins/ParticleOcclusion/ParticleOcclusion.so"
@@ -33,6 +35,7 @@ def run(name, script, folder):
             raise SystemExit(f"{name} wrote nothing to {output}")
 
 
+assert not links.broken(ROOT), links.broken(ROOT)
 with tempfile.TemporaryDirectory() as work:
     os.symlink(os.path.join(ROOT, "Data"), os.path.join(work, "Data"))
     for document, least in DOCUMENTS.items():
