@@ -67,11 +67,14 @@ struct SampleBlock
 
   [[nodiscard]] int stride() const { return columns * samples; }
 
-  /// Pixel of an image of `width` x `height` that a sample of the block belongs to.
-  [[nodiscard]] int pixelOf(int sample, int width, int height) const
+  [[nodiscard]] int indexOf(int i, int j) const { return j * stride() + i; }
+
+  /// Pixel of an image of `width` x `height` that sample (i, j) of the block belongs to.
+  [[nodiscard]] int pixelOf(int i, int j, int width, int height) const
   {
-    const int i = x + sample % stride() / samples, j = y + sample / stride() / samples;
-    return std::clamp(j, 0, height - 1) * width + std::clamp(i, 0, width - 1);
+    const int column = x + (samples == 1 ? i : i / samples);
+    const int row = y + (samples == 1 ? j : j / samples);
+    return std::clamp(row, 0, height - 1) * width + std::clamp(column, 0, width - 1);
   }
 
   void resize(int newColumns, int newRows, int newSamples)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RimShares.h"
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 
 // Highway compiles this file once for each instruction set (SSE4, AVX2, AVX-512, NEON, ...) and
 // chooses when it runs. There are no fused multiply-adds: the bits are the same.
@@ -15,126 +16,227 @@ namespace po::HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::CappedTag<float, 16>;
+// The pixels of one rim in a tile are few: longer vectors would be mostly empty.
+using Tag = hn::CappedTag<float, 8>;
+using IntegerTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
-constexpr std::size_t MostLanes = 16;
+using Integers = hn::Vec<IntegerTag>;
+using Lanes = hn::Mask<Tag>;
 
 /// A rim farther than this from an edge, in pixels, is not what the edge is the edge of.
 constexpr float FarFromEdge = 1.5F;
 
-inline Floats dot(const Floats a[3], const Floats b[3])
+inline Floats number(float value)
 {
-  return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
+  return hn::Set(Tag(), value);
 }
 
-/// Where pixels lie beside their rims.
+/// A quadratic at some places, and half its gradient.
+struct Evaluated
+{
+  Floats value, halfX, halfY;
+
+  Evaluated(const Quadratic& f, Floats x, Floats y)
+  {
+    const Floats mixed = number(0.5F * f.xy), fx = number(0.5F * f.x), fy = number(0.5F * f.y);
+    const Floats bentX = hn::Add(hn::Mul(x, number(f.xx)), hn::Mul(y, mixed));
+    const Floats bentY = hn::Add(hn::Mul(y, number(f.yy)), hn::Mul(x, mixed));
+    halfX = hn::Add(fx, bentX);
+    halfY = hn::Add(fy, bentY);
+    const Floats rise = hn::Add(hn::Mul(x, hn::Add(fx, halfX)), hn::Mul(y, hn::Add(fy, halfY)));
+    value = hn::Add(number(f.c), rise);
+  }
+};
+
+/// Where pixels lie beside a rim.
 struct Place
 {
   Floats distance;     ///< beyond the rim, in pixels
   Floats wide, narrow; ///< the larger and the smaller component of the unit normal, without sign
+  Floats perWide, perArea;
 };
 
-/// Rims and patches of the pixels of one vector, as columns.
-struct Columns
+/// The distance from the rim is (h - r) / |grad h|, with lengths in radii.
+inline Place placeOf(const Quadratic& squaredMoment, const RayPatch& patch, Floats x, Floats y)
 {
-  HWY_ALIGN float m[3][MostLanes];
-  HWY_ALIGN float mx[3][MostLanes];
-  HWY_ALIGN float my[3][MostLanes];
-  HWY_ALIGN float radius[MostLanes];
-
-  void load(const Rim& rim, std::size_t lane)
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      m[axis][lane] = rim.m[axis];
-      mx[axis][lane] = rim.mx[axis];
-      my[axis][lane] = rim.my[axis];
-    }
-    radius[lane] = rim.radius;
-  }
-};
-
-/// All pixels of one vector have the rays of one patch.
-inline Place placeOf(const Columns& c, const RayPatch& p, Floats x, Floats y)
-{
-  const Tag d;
-  const Floats tiny = hn::Set(d, 1e-30F), one = hn::Set(d, 1.0F), half = hn::Set(d, 0.5F);
-  Floats mx[3], my[3], m[3];
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    mx[axis] = hn::Load(d, c.mx[axis]);
-    my[axis] = hn::Load(d, c.my[axis]);
-    m[axis] = hn::Add(hn::Load(d, c.m[axis]), hn::Add(hn::Mul(x, mx[axis]), hn::Mul(y, my[axis])));
-  }
-  const Floats mixed = hn::Mul(half, hn::Set(d, p.qxy));
-  const Floats px = hn::Set(d, p.qx), py = hn::Set(d, p.qy);
-  // Half the gradient of the squared length q of a direction.
-  const Floats qx = hn::Add(px, hn::Add(hn::Mul(x, hn::Set(d, p.qxx)), hn::Mul(y, mixed)));
-  const Floats qy = hn::Add(py, hn::Add(hn::Mul(y, hn::Set(d, p.qyy)), hn::Mul(x, mixed)));
-  const Floats q = hn::Add(one, hn::Add(hn::Mul(x, hn::Add(px, qx)), hn::Mul(y, hn::Add(py, qy))));
-  const Floats square = hn::Max(dot(m, m), tiny);
-  const Floats h = hn::Sqrt(hn::Div(square, q));
-  const Floats perH = hn::Div(one, hn::Mul(h, q));
-  const Floats slide = hn::Mul(h, h);
-  const Floats gx = hn::Mul(perH, hn::Sub(dot(m, mx), hn::Mul(slide, qx)));
-  const Floats gy = hn::Mul(perH, hn::Sub(dot(m, my), hn::Mul(slide, qy)));
+  const Floats tiny = number(1e-30F), one = number(1);
+  const Evaluated moment(squaredMoment, x, y), length(patch.squaredLength, x, y);
+  const Floats square = hn::Div(hn::Max(moment.value, tiny), length.value);
+  const Floats h = hn::Sqrt(square);
+  // grad h times h |d|^2
+  const Floats gx = hn::Sub(moment.halfX, hn::Mul(square, length.halfX));
+  const Floats gy = hn::Sub(moment.halfY, hn::Mul(square, length.halfY));
   const Floats gradient = hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
   const Floats perLength = hn::Div(one, hn::Sqrt(hn::Max(gradient, tiny)));
+  const Floats beyond = hn::Mul(hn::Sub(h, one), hn::Mul(h, length.value));
   const Floats nx = hn::Mul(hn::Abs(gx), perLength), ny = hn::Mul(hn::Abs(gy), perLength);
-  const Floats distance = hn::Mul(hn::Sub(h, hn::Load(d, c.radius)), perLength);
-  return { distance, hn::Max(nx, ny), hn::Min(nx, ny) };
+  const Floats wide = hn::Max(nx, ny), narrow = hn::Min(nx, ny);
+  const Floats area = hn::Max(hn::Mul(number(2), hn::Mul(wide, narrow)), number(1e-9F));
+  return { hn::Mul(beyond, perLength), wide, narrow, hn::Div(one, wide), hn::Div(one, area) };
 }
 
 /// Share of a pixel that lies beyond a straight line at a distance from its centre: the
 /// distribution function of the trapezoid that a square shows in the direction of the normal.
 inline Floats shareBeyond(Floats distance, const Place& place)
 {
-  const Tag d;
-  const Floats half = hn::Set(d, 0.5F), one = hn::Set(d, 1.0F), two = hn::Set(d, 2.0F);
+  const Floats half = number(0.5F), one = number(1), zero = number(0);
   const Floats x = hn::Abs(distance);
   const Floats flat = hn::Mul(half, hn::Sub(place.wide, place.narrow));
   const Floats end = hn::Mul(half, hn::Add(place.wide, place.narrow));
-  const Floats left = hn::Max(hn::Sub(end, x), hn::Zero(d));
-  const Floats area = hn::Max(hn::Mul(two, hn::Mul(place.wide, place.narrow)), hn::Set(d, 1e-9F));
-  const Floats bent = hn::Sub(one, hn::Div(hn::Mul(left, left), area));
-  const Floats straight = hn::Add(half, hn::Div(x, place.wide));
+  const Floats left = hn::Max(hn::Sub(end, x), zero);
+  const Floats bent = hn::Sub(one, hn::Mul(hn::Mul(left, left), place.perArea));
+  const Floats straight = hn::Add(half, hn::Mul(x, place.perWide));
   const Floats share = hn::IfThenElse(hn::Le(x, flat), straight, bent);
-  return hn::IfThenElse(hn::Lt(distance, hn::Zero(d)), hn::Sub(one, share), share);
+  return hn::IfThenElse(hn::Lt(distance, zero), hn::Sub(one, share), share);
 }
 
-/// Strengths and insides of the pixels of one vector.
-inline void storeShares(const Place& place, RimWork& work, std::size_t i)
+/// JumpRamp::at().
+inline Floats rampAt(const JumpRamp& ramp, Floats jump)
 {
-  const Tag d;
-  const Floats one = hn::Set(d, 1.0F), zero = hn::Zero(d);
-  const Floats outer = hn::Sub(place.distance, hn::LoadU(d, work.widths.data() + i));
-  const Floats beyond = shareBeyond(place.distance, place);
-  const Floats share = hn::Sub(beyond, shareBeyond(outer, place));
-  const auto isEdge = hn::Gt(hn::LoadU(d, work.isEdge.data() + i), zero);
-  const auto isFar = hn::Gt(hn::Abs(place.distance), hn::Set(d, FarFromEdge));
-  const Floats covered = hn::IfThenElse(hn::And(isEdge, isFar), one, share);
-  const Floats inside = hn::IfThenElseZero(hn::Ge(place.distance, zero), hn::Sub(one, beyond));
-  const Floats weights = hn::LoadU(d, work.weights.data() + i);
-  hn::StoreU(hn::Mul(covered, weights), d, work.strengths.data() + i);
-  hn::StoreU(hn::Mul(inside, weights), d, work.insides.data() + i);
+  const Floats from = number(ramp.from), to = number(ramp.to);
+  const Floats rise = hn::Div(hn::Sub(jump, from), hn::Sub(to, from));
+  return hn::IfThenElse(hn::Ge(jump, to), number(1), hn::IfThenElseZero(hn::Gt(jump, from), rise));
 }
 
-/// All vectors have room for whole lanes at their ends; one patch.
-void findSharesOf(const RayPatch& patch, const Rim* rims, RimWork& work)
+/// What the edges of one rim around each of some pixels say: the nearest front counts.
+struct EdgesAround
 {
-  const Tag d;
-  const std::size_t lanes = hn::Lanes(d);
-  Columns columns;
-  for (std::size_t i = 0; i < work.count; i += lanes)
+  Lanes any = hn::FirstN(Tag(), 0);
+  Floats front = number(std::numeric_limits<float>::infinity());
+  Floats jump = number(0); ///< the largest
+  Integers frontPixel = hn::Zero(IntegerTag());
+
+  EdgesAround(const RimTile& tile, int index, std::int32_t rim, int reach)
   {
-    for (std::size_t lane = 0; lane < lanes; ++lane)
+    const Tag d;
+    const IntegerTag integers;
+    for (int row = -reach; row <= reach; ++row)
     {
-      columns.load(rims[static_cast<std::size_t>(work.rims[i + lane])], lane);
+      for (int at = index + row * RimTile::EdgePitch - reach, end = at + 2 * reach; at <= end; ++at)
+      {
+        const auto isRim =
+          hn::Eq(hn::LoadU(integers, tile.rims.data() + at), hn::Set(integers, rim));
+        const Lanes is = hn::RebindMask(d, isRim);
+        const Floats itsFront = hn::LoadU(d, tile.fronts.data() + at);
+        const Lanes isNearer = hn::And(is, hn::Lt(itsFront, front));
+        any = hn::Or(any, is);
+        front = hn::IfThenElse(isNearer, itsFront, front);
+        jump = hn::Max(jump, hn::IfThenElseZero(is, hn::LoadU(d, tile.jumps.data() + at)));
+        frontPixel = hn::IfThenElse(hn::RebindMask(integers, isNearer),
+          hn::LoadU(integers, tile.frontPixels.data() + at), frontPixel);
+      }
     }
-    const Place place =
-      placeOf(columns, patch, hn::LoadU(d, work.x.data() + i), hn::LoadU(d, work.y.data() + i));
-    storeShares(place, work, i);
   }
+};
+
+/// Paints lines along one rim.
+class Painter
+{
+public:
+  Painter(const RayPatch& patch, const Rim& rim, const SilhouetteRule& rule, RimTile& tile)
+    : patch_(patch)
+    , rim_(rim)
+    , rule_(rule)
+    , tile_(tile)
+    , reach_(reachOfLines(rule))
+    , farthest_(rule.backgroundLines ? std::numeric_limits<float>::infinity()
+                                     : std::numeric_limits<float>::max())
+  {
+  }
+
+  /// Pixels (i, j) and those to the right of it; false if there is no line.
+  bool paint(int i, int j)
+  {
+    const Tag d;
+    const int edge = RimTile::edgeIndexOf(i, j);
+    const EdgesAround itself(tile_, edge, rim_.number, 0);
+    EdgesAround around(tile_, edge, rim_.number, reach_);
+    const Lanes isEdge = itself.any;
+    const Floats jump = hn::IfThenElse(isEdge, itself.jump, jumpBeside(around, i, j));
+    const Lanes isBehind = hn::And(
+      hn::Gt(jump, number(static_cast<float>(rule_.jump))), hn::Le(jump, number(farthest_)));
+    const Lanes isLine = hn::Or(isEdge, hn::And(around.any, isBehind));
+    if (hn::AllFalse(d, isLine))
+    {
+      return false;
+    }
+    around.frontPixel =
+      hn::IfThenElse(hn::RebindMask(IntegerTag(), isEdge), itself.frontPixel, around.frontPixel);
+    const Floats x = hn::Add(hn::Iota(d, 0), number(static_cast<float>(i - RimTile::Side / 2)));
+    const Place place =
+      placeOf(rim_.squaredMoment, patch_, x, number(static_cast<float>(j - RimTile::Side / 2)));
+    return merge(place, jump, isEdge, isLine, around.frontPixel, RimTile::indexOf(i, j));
+  }
+
+private:
+  /// From the sphere to what lies behind it at a pixel beside the edge. Pixels of the sphere itself
+  /// are covered in part, by what lies behind it at the edge.
+  [[nodiscard]] Floats jumpBeside(const EdgesAround& around, int i, int j) const
+  {
+    const IntegerTag integers;
+    const int at = j * tile_.pitch + i;
+    const auto* shown = reinterpret_cast<const std::int32_t*>(tile_.shown + at);
+    const Lanes isFront = hn::RebindMask(Tag(),
+      hn::Eq(hn::LoadU(integers, shown), hn::Set(integers, static_cast<std::int32_t>(rim_.shown))));
+    const Floats depth = hn::LoadU(Tag(), tile_.depth + at);
+    return hn::IfThenElse(isFront, around.jump, hn::Sub(depth, around.front));
+  }
+
+  bool merge(
+    const Place& place, Floats jump, Lanes isEdge, Lanes isLine, Integers frontPixel, int at)
+  {
+    const Tag d;
+    const IntegerTag integers;
+    Floats width = number(static_cast<float>(rule_.width)), weight = number(1);
+    if (rule_.greyByJump || rule_.maximumWidth > rule_.width)
+    {
+      const Floats ramp = rampAt(rule_.ramp, jump);
+      const auto growth = static_cast<float>(rule_.maximumWidth - rule_.width);
+      width = hn::Add(width, hn::Mul(ramp, number(growth)));
+      weight = rule_.greyByJump ? ramp : weight;
+    }
+    const Floats beyond = shareBeyond(place.distance, place);
+    const Floats outer = shareBeyond(hn::Sub(place.distance, width), place);
+    const Lanes isFar = hn::Gt(hn::Abs(place.distance), number(FarFromEdge));
+    const Floats covered =
+      hn::IfThenElse(hn::And(isEdge, isFar), number(1), hn::Sub(beyond, outer));
+    const Floats inside =
+      hn::IfThenElseZero(hn::Ge(place.distance, number(0)), hn::Sub(number(1), beyond));
+
+    const Floats strength = hn::Mul(covered, weight);
+    const Floats before = hn::LoadU(d, tile_.strength.data() + at);
+    const Lanes isStronger = hn::And(isLine, hn::Gt(strength, before));
+    const auto store = [&](auto tag, auto lanes, auto value, auto* to)
+    { hn::StoreU(hn::IfThenElse(lanes, value, hn::LoadU(tag, to)), tag, to); };
+    store(d, isStronger, strength, tile_.strength.data() + at);
+    store(d, isStronger, hn::Mul(inside, weight), tile_.inside.data() + at);
+    store(integers, hn::RebindMask(integers, isStronger), frontPixel, tile_.front.data() + at);
+    return !hn::AllFalse(d, isStronger);
+  }
+
+  const RayPatch& patch_;
+  const Rim& rim_;
+  const SilhouetteRule& rule_;
+  RimTile& tile_;
+  int reach_;
+  float farthest_; ///< largest jump that a line beside an edge is drawn for
+};
+
+bool paintLine(const RayPatch& patch, const Rim& rim, const SilhouetteRule& rule, RimTile& tile)
+{
+  Painter painter(patch, rim, rule, tile);
+  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(Tag()));
+  bool any = false;
+  for (int j = 0; j < RimTile::Side; ++j)
+  {
+    for (std::uint32_t left = rim.pixels[static_cast<std::size_t>(j)]; left != 0;)
+    {
+      const auto i = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+      any |= painter.paint(static_cast<int>(i), j);
+      left = i + lanes < 32 ? left & (~0U << (i + lanes)) : 0;
+    }
+  }
+  return any;
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -142,71 +244,46 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace po
 {
-HWY_EXPORT(findSharesOf);
+HWY_EXPORT(paintLine);
+
+namespace
+{
+/// |a + x b + y c|^2 times a factor.
+Quadratic squareOf(const WindowFunction<Vec3d>& f, double factor)
+{
+  const auto product = [factor](double scale, const Vec3d& a, const Vec3d& b)
+  { return static_cast<float>(factor * scale * dot(a, b)); };
+  return { product(1, f.base, f.base), product(2, f.base, f.dx), product(2, f.base, f.dy),
+    product(1, f.dx, f.dx), product(2, f.dx, f.dy), product(1, f.dy, f.dy) };
+}
+}
 
 RayPatch makeRayPatch(const RayPencil& rays)
 {
-  const auto& d = rays.localDirection;
-  const double scale = 1 / length(d.base), square = scale * scale;
-  return { rays, scale, static_cast<float>(square * dot(d.base, d.dx)),
-    static_cast<float>(square * dot(d.base, d.dy)), static_cast<float>(square * dot(d.dx, d.dx)),
-    static_cast<float>(2 * square * dot(d.dx, d.dy)),
-    static_cast<float>(square * dot(d.dy, d.dy)) };
+  const double scale = 1 / length(rays.localDirection.base);
+  return { rays, scale, squareOf(rays.localDirection, scale * scale) };
 }
 
-Rim makeRim(const RayPatch& patch, const Sphere& sphere)
+Quadratic squaredMoment(const RayPatch& patch, const Sphere& sphere)
 {
-  const RayPencil& rays = patch.rays;
-  const Vec3d toCenter = sphere.center().as<double>() - rays.localOrigin.base;
-  Rim rim{ &sphere, sphere.radius, {}, {}, {} };
-  const auto store = [&](Vec3d originStep, Vec3d directionStep, float(&to)[3])
-  {
-    const Vec3d m =
-      patch.scale * (cross(toCenter, directionStep) - cross(originStep, rays.localDirection.base));
-    to[0] = static_cast<float>(m.x);
-    to[1] = static_cast<float>(m.y);
-    to[2] = static_cast<float>(m.z);
-  };
-  store({}, rays.localDirection.base, rim.m);
-  store(rays.localOrigin.dx, rays.localDirection.dx, rim.mx);
-  store(rays.localOrigin.dy, rays.localDirection.dy, rim.my);
-  return rim;
+  const WindowFunction<Vec3d>& d = patch.rays.localDirection;
+  const WindowFunction<Vec3d>& origin = patch.rays.localOrigin;
+  const Vec3d toCenter = sphere.center().as<double>() - origin.base;
+  const WindowFunction<Vec3d> moment{ cross(toCenter, d.base),
+    cross(toCenter, d.dx) - cross(origin.dx, d.base),
+    cross(toCenter, d.dy) - cross(origin.dy, d.base) };
+  const double scale = patch.scale / sphere.radius;
+  return squareOf(moment, scale * scale);
 }
 
-void RimWork::add(const RimPixel& pixel)
+bool paintRim(const RayPatch& patch, const Rim& rim, const SilhouetteRule& rule, RimTile& tile)
 {
-  constexpr std::size_t LargestVector = 16;
-  if (count + LargestVector >= rims.size())
-  {
-    const std::size_t size = 2 * rims.size() + 4 * LargestVector;
-    for (auto* integers : { &rims, &pixels, &frontPixels })
-    {
-      integers->resize(size);
-    }
-    for (auto* floats : { &x, &y, &widths, &weights, &isEdge, &strengths, &insides })
-    {
-      floats->resize(size);
-    }
-  }
-  rims[count] = pixel.rim;
-  pixels[count] = pixel.pixel;
-  x[count] = pixel.x;
-  y[count] = pixel.y;
-  widths[count] = pixel.width;
-  weights[count] = pixel.weight;
-  isEdge[count] = pixel.isEdge ? 1 : 0;
-  frontPixels[count] = pixel.frontPixel;
-  ++count;
+  return HWY_DYNAMIC_DISPATCH(paintLine)(patch, rim, rule, tile);
 }
 
-void findShares(const RayPatch& patch, const std::vector<Rim>& allRims, RimWork& work)
+int reachOfLines(const SilhouetteRule& rule)
 {
-  if (work.count > 0)
-  {
-    // What lies beyond the last pixel is computed and never used.
-    std::fill_n(work.rims.begin() + static_cast<std::ptrdiff_t>(work.count), 16, 0);
-    HWY_DYNAMIC_DISPATCH(findSharesOf)(patch, allRims.data(), work);
-  }
+  return static_cast<int>(std::ceil(rule.maximumWidth));
 }
 }
 #endif

@@ -20,8 +20,18 @@ struct EdgeLimits
 {
   float threshold, jump, smallestStep;
   bool slopeTest, backgroundLines;
-  const int* neighbours;
 };
+
+/// Samples of a block that are tested; two more on each side are read.
+struct TestedSamples
+{
+  int begin, end;        ///< columns
+  int firstRow, lastRow; ///< the last is not tested
+};
+
+/// Columns and rows to the neighbours of a sample; opposite ones are k and 7 - k.
+constexpr int NeighbourI[8] = { -1, 0, 1, -1, 1, -1, 0, 1 };
+constexpr int NeighbourJ[8] = { -1, -1, -1, 0, 0, 1, 1, 1 };
 }
 #endif
 
@@ -30,24 +40,31 @@ namespace po::HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Tag = hn::ScalableTag<float>;
+// Edges are few: longer vectors would hold as many.
+using Tag = hn::CappedTag<float, 8>;
 using Floats = hn::Vec<Tag>;
 using Lanes = hn::Mask<Tag>;
+constexpr std::size_t MostLanes = 8;
+
+/// Jumps of some samples side by side, 0 where there is no edge, and their front neighbours.
+struct EdgeLanes
+{
+  HWY_ALIGN float jumps[MostLanes];
+  HWY_ALIGN std::int32_t fronts[MostLanes];
+};
 
 /// Some samples side by side and what their neighbours say about them.
 class EdgeTest
 {
 public:
-  EdgeTest(const EdgeLimits& limits, const float* center)
+  /// @param nearest of each sample and its neighbours
+  EdgeTest(const EdgeLimits& limits, const float* center, int stride, Floats nearest)
     : limits_(limits)
     , center_(center)
+    , stride_(stride)
     , t_(hn::LoadU(d_, center))
-    , nearest_(hn::LoadU(d_, center + limits.neighbours[0]))
+    , nearest_(nearest)
   {
-    for (int k = 1; k < 8; ++k)
-    {
-      nearest_ = hn::Min(nearest_, hn::LoadU(d_, center + limits.neighbours[k]));
-    }
   }
 
   /// Is a neighbour so much nearer that there may be an edge? Also where background borders on
@@ -58,8 +75,8 @@ public:
     return !hn::AllFalse(d_, steep);
   }
 
-  /// Stores the jump of each sample, 0 where it is no edge, and the number of its front neighbour.
-  void store(float* jumps, std::int32_t* fronts)
+  /// Which lanes are edges, one bit each.
+  std::uint32_t store(EdgeLanes& lanes)
   {
     addNeighbours();
     const Lanes isBackground = hn::Eq(t_, infinity_);
@@ -69,10 +86,14 @@ public:
     const Floats inside = hn::IfThenElseZero(hn::And(isDeep, isSteep), jump_);
     const Floats outline =
       limits_.backgroundLines ? hn::IfThenElseZero(isBeside, infinity_) : hn::Zero(d_);
-    hn::StoreU(hn::IfThenElse(isBackground, outline, inside), d_, jumps);
+    const Floats jumps = hn::IfThenElse(isBackground, outline, inside);
+    hn::Store(jumps, d_, lanes.jumps);
     const hn::RebindToSigned<Tag> integers;
     const Floats front = hn::IfThenElse(isBackground, nearestNeighbour_, front_);
-    hn::StoreU(hn::ConvertTo(integers, front), integers, fronts);
+    hn::Store(hn::ConvertTo(integers, front), integers, lanes.fronts);
+    std::uint8_t bytes[8] = {}; // Highway may write that many
+    hn::StoreMaskBits(d_, hn::Gt(jumps, hn::Zero(d_)), bytes);
+    return bytes[0];
   }
 
 private:
@@ -80,7 +101,7 @@ private:
   {
     for (int k = 0; k < 8; ++k)
     {
-      const int offset = limits_.neighbours[k];
+      const int offset = NeighbourJ[k] * stride_ + NeighbourI[k];
       const Floats number = hn::Set(d_, static_cast<float>(k));
       const Floats n = hn::LoadU(d_, center_ + offset);
       const Lanes isBackground = hn::Eq(n, infinity_);
@@ -116,39 +137,78 @@ private:
   const Tag d_;
   const EdgeLimits& limits_;
   const float* center_;
+  int stride_;
   const Floats infinity_ = hn::Set(d_, std::numeric_limits<float>::infinity());
   Floats t_, nearest_;
   Floats sum_ = hn::Zero(d_), backgrounds_ = hn::Zero(d_), largest_ = hn::Zero(d_);
   Floats jump_ = hn::Zero(d_), front_ = hn::Zero(d_), nearestNeighbour_ = hn::Zero(d_);
 };
 
-/// Jumps and fronts of `count` samples side by side, and some beyond; false if none is an edge, and
-/// then nothing is stored.
-bool findEdges(
-  const EdgeLimits& limits, const float* centers, int count, float* jumps, std::int32_t* fronts)
+/// The nearest of each sample of a row and its neighbours to the left and right.
+inline void findNearest(const float* row, int count, float* nearest)
+{
+  const Tag d;
+  for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d)))
+  {
+    const Floats beside = hn::Min(hn::LoadU(d, row + i - 1), hn::LoadU(d, row + i + 1));
+    hn::StoreU(hn::Min(hn::LoadU(d, row + i), beside), d, nearest + i);
+  }
+}
+
+/// Adds the edges among the lanes of `bits`, the first of which is sample (i, j).
+inline void addEdges(const EdgeLanes& lanes, std::uint32_t bits, const float* center, int stride,
+  int i, int j, std::vector<SilhouetteEdge>& edges)
+{
+  for (; bits != 0; bits &= bits - 1)
+  {
+    const auto lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+    const std::int32_t k = lanes.fronts[lane];
+    const int di = NeighbourI[k], dj = NeighbourJ[k];
+    // In place: a whole edge that is copied just after its parts were written stalls.
+    SilhouetteEdge& edge = edges.emplace_back();
+    edge.i = static_cast<std::int16_t>(i + lane);
+    edge.j = static_cast<std::int16_t>(j);
+    edge.frontI = static_cast<std::int16_t>(i + lane + di);
+    edge.frontJ = static_cast<std::int16_t>(j + dj);
+    edge.behind = center[lane];
+    edge.front = center[lane + dj * stride + di];
+    edge.jump = lanes.jumps[lane];
+  }
+}
+
+/// @param nearest room for three rows of the block
+void findEdges(const EdgeLimits& limits, const SampleBlock& block, const TestedSamples& tested,
+  std::vector<float>& nearest, std::vector<SilhouetteEdge>& edges)
 {
   const Tag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
-  bool any = false;
-  for (int i = 0; i < count; i += lanes)
+  const int stride = block.stride(), count = tested.end - tested.begin;
+  const auto rowOf = [&](int j)
+  { return block.depth.data() + static_cast<std::ptrdiff_t>(j) * stride + tested.begin; };
+  const std::size_t size = nearest.size() / 3;
+  float* below = nearest.data();
+  float* here = below + size;
+  float* above = here + size;
+  findNearest(rowOf(tested.firstRow - 1), count, below);
+  findNearest(rowOf(tested.firstRow), count, here);
+  EdgeLanes found;
+  for (int j = tested.firstRow; j < tested.lastRow; ++j)
   {
-    EdgeTest test(limits, centers + i);
-    const bool here = test.any();
-    if (here && !any)
+    const float* row = rowOf(j);
+    findNearest(rowOf(j + 1), count, above);
+    for (int i = 0; i < count; i += lanes)
     {
-      std::fill(jumps, jumps + i, 0.0F);
-      any = true;
+      const Floats around = hn::Min(hn::LoadU(d, below + i), hn::LoadU(d, above + i));
+      EdgeTest test(limits, row + i, stride, hn::Min(around, hn::LoadU(d, here + i)));
+      if (test.any())
+      {
+        const std::uint32_t inside = count - i < 32 ? (1U << (count - i)) - 1 : ~0U;
+        addEdges(found, test.store(found) & inside, row + i, stride, tested.begin + i, j, edges);
+      }
     }
-    if (here)
-    {
-      test.store(jumps + i, fronts + i);
-    }
-    else if (any)
-    {
-      hn::StoreU(hn::Zero(d), d, jumps + i);
-    }
+    std::swap(below, here);
+    std::swap(here, above);
   }
-  return any;
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -177,27 +237,6 @@ void EdgeFinder::placeBackground()
   }
 }
 
-void EdgeFinder::searchRow(int j, int begin, int end)
-{
-  const int start = j * block_.stride() + begin;
-  const EdgeLimits limits{ static_cast<float>(rule_.threshold), static_cast<float>(rule_.jump),
-    static_cast<float>(smallestStep(rule_)), rule_.slopeTest, rule_.backgroundLines,
-    neighbours_.data() };
-  if (!HWY_DYNAMIC_DISPATCH(findEdges)(
-        limits, block_.depth.data() + start, end - begin, jumps_.data(), fronts_.data()))
-  {
-    return;
-  }
-  for (int i = 0; i < end - begin; ++i)
-  {
-    if (jumps_[static_cast<std::size_t>(i)] > 0)
-    {
-      const int front = neighbours_[static_cast<std::size_t>(fronts_[static_cast<std::size_t>(i)])];
-      edges_.push_back({ start + i, start + i + front, jumps_[static_cast<std::size_t>(i)] });
-    }
-  }
-}
-
 bool EdgeFinder::find(
   const DepthSource& source, int x, int y, int columns, int rows, const DepthRange& range)
 {
@@ -207,16 +246,13 @@ bool EdgeFinder::find(
   block_.origin = range.nearest;
   source.fill(block_);
   placeBackground();
-  const int stride = block_.stride();
-  neighbours_ = { -stride - 1, -stride, -stride + 1, -1, 1, stride - 1, stride, stride + 1 };
-  jumps_.resize(static_cast<std::size_t>(stride) + SampleBlock::Slack);
-  fronts_.resize(jumps_.size());
-  edges_.clear();
   const int rim = (margin_ - around_) * samples_;
-  for (int j = rim; j < block_.rows * samples_ - rim; ++j)
-  {
-    searchRow(j, rim, stride - rim);
-  }
+  const TestedSamples tested{ rim, block_.stride() - rim, rim, block_.rows * samples_ - rim };
+  const EdgeLimits limits{ static_cast<float>(rule_.threshold), static_cast<float>(rule_.jump),
+    static_cast<float>(smallestStep(rule_)), rule_.slopeTest, rule_.backgroundLines };
+  nearest_.resize(3 * (static_cast<std::size_t>(block_.stride()) + SampleBlock::Slack));
+  edges_.clear();
+  HWY_DYNAMIC_DISPATCH(findEdges)(limits, block_, tested, nearest_, edges_);
   return !edges_.empty();
 }
 }

@@ -5,7 +5,6 @@
 #include "DepthSource.h"
 #include "SilhouetteRule.h"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,8 +14,9 @@ namespace po
 /// A sample behind a jump, and the sample in front that it jumps from.
 struct SilhouetteEdge
 {
-  int behind;
-  int front;
+  std::int16_t i, j;           ///< column and row of the block of samples
+  std::int16_t frontI, frontJ; ///< of the sample in front
+  float behind, front;         ///< depths, relative to the block's origin
   float jump; ///< less the slopes where they are tested; infinite before the background
 };
 
@@ -28,8 +28,8 @@ public:
   /// @param around pixels around a tile that are searched too
   EdgeFinder(const SilhouetteRule& rule, int samples, int around);
 
-  /// Searches a tile of `columns` x `rows` pixels from pixel (x, y) on and what is around it. False
-  /// if there is no edge.
+  /// Searches a tile of `columns` x `rows` pixels from pixel (x, y) on and what is around it, row
+  /// by row from the bottom. False if there is no edge.
   /// @param range of the depths of the tile and all around it that is read
   bool find(
     const DepthSource& source, int x, int y, int columns, int rows, const DepthRange& range);
@@ -42,16 +42,13 @@ public:
 
 private:
   void placeBackground();
-  void searchRow(int j, int begin, int end);
 
   const SilhouetteRule& rule_;
   int samples_;
   int around_;
   int margin_;
   SampleBlock block_;
-  std::array<int, 8> neighbours_{}; ///< offsets of samples; opposite ones are i and 7 - i
-  std::vector<float> jumps_;
-  std::vector<std::int32_t> fronts_;
+  std::vector<float> nearest_; ///< of three rows, see findEdges()
   std::vector<SilhouetteEdge> edges_;
 };
 

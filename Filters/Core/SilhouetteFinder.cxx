@@ -44,7 +44,7 @@ public:
     spread_.assign(cover_.size(), 0);
     for (const SilhouetteEdge& edge : finder_.edges())
     {
-      cover(edge.behind, edge.front);
+      cover(finder_.block().indexOf(edge.i, edge.j), frontOf(edge));
       spread(edge);
     }
     writeStrength(x, y, columns, rows, image);
@@ -65,16 +65,20 @@ private:
     clearTile(image, x / DepthTileSize, y / DepthTileSize);
     for (const SilhouetteEdge& edge : finder_.edges())
     {
-      const int pixel = block.pixelOf(edge.behind, image.width, image.height);
-      const float jump = block.depth[static_cast<std::size_t>(edge.behind)] -
-        block.depth[static_cast<std::size_t>(edge.front)];
-      image.strength[static_cast<std::size_t>(pixel)] = rule_.greyByJump ? rule_.ramp.at(jump) : 1;
+      const int pixel = block.pixelOf(edge.i, edge.j, image.width, image.height);
+      image.strength[static_cast<std::size_t>(pixel)] =
+        rule_.greyByJump ? rule_.ramp.at(edge.behind - edge.front) : 1;
       if (findFronts_)
       {
         image.front[static_cast<std::size_t>(pixel)] =
-          block.pixelOf(edge.front, image.width, image.height);
+          block.pixelOf(edge.frontI, edge.frontJ, image.width, image.height);
       }
     }
+  }
+
+  [[nodiscard]] int frontOf(const SilhouetteEdge& edge) const
+  {
+    return finder_.block().indexOf(edge.frontI, edge.frontJ);
   }
 
   void cover(int behind, int front)
@@ -93,12 +97,12 @@ private:
   /// Covers the disc of a line's width about the front sample, as far as it lies behind it.
   void spread(const SilhouetteEdge& edge)
   {
-    const int stride = finder_.block().stride();
     const float growth = rule_.ramp.at(edge.jump);
     const double width = rule_.width + growth * (rule_.maximumWidth - rule_.width);
     // The rim of the front lies, in the mean, half a sample beyond its last sample.
     const double radius = width * rule_.samples + 0.5;
-    float& done = spread_[static_cast<std::size_t>(edge.front)];
+    const int front = frontOf(edge);
+    float& done = spread_[static_cast<std::size_t>(front)];
     if (static_cast<float>(radius) <= done)
     {
       return; // for another sample behind the same front
@@ -108,7 +112,7 @@ private:
     for (int dj = -height; dj <= height; ++dj)
     {
       const int half = static_cast<int>(std::sqrt(radius * radius - dj * dj));
-      coverRow(edge.front, edge.front % stride, edge.front / stride + dj, half);
+      coverRow(front, edge.frontI, edge.frontJ + dj, half);
     }
   }
 
@@ -146,10 +150,17 @@ private:
         image.strength[pixel] = strengthOf(i, j, front);
         if (findFronts_ && front >= 0)
         {
-          image.front[pixel] = finder_.block().pixelOf(front, image.width, image.height);
+          image.front[pixel] = pixelOf(front, image);
         }
       }
     }
+  }
+
+  [[nodiscard]] int pixelOf(int sample, const SilhouetteImage& image) const
+  {
+    const SampleBlock& block = finder_.block();
+    return block.pixelOf(
+      sample % block.stride(), sample / block.stride(), image.width, image.height);
   }
 
   /// Share of a pixel's samples that is covered, weighted by their grey.
@@ -186,6 +197,9 @@ private:
 };
 }
 
+namespace
+{
+/// Can there be an edge between depths of this range? May err towards yes.
 bool mayHaveEdge(const SilhouetteRule& rule, DepthRange range)
 {
   if (!range.hasGeometry())
@@ -202,6 +216,38 @@ bool mayHaveEdge(const SilhouetteRule& rule, DepthRange range)
   }
   // Depths are searched as floats relative to the nearest, which may round the difference up.
   return (range.farthest - range.nearest) * (1 + 1e-6) > smallestStep(rule);
+}
+}
+
+std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const SilhouetteRule& rule,
+  SilhouetteImage& image, bool skipTiles)
+{
+  const int columns = depthTiles(image.width), rows = depthTiles(image.height);
+  std::vector<int> searched;
+  std::vector<DepthRange> threeRows(static_cast<std::size_t>(columns));
+  for (int y = 0; y < rows; ++y)
+  {
+    for (int x = 0; x < columns; ++x)
+    {
+      threeRows[static_cast<std::size_t>(x)] = rangeOf(ranges, columns, x, x + 1, y - 1, y + 2);
+    }
+    for (int x = 0; x < columns; ++x)
+    {
+      const int tile = y * columns + x;
+      const DepthRange range = rangeOf(threeRows, columns, x - 1, x + 2, 0, 1);
+      std::uint8_t& had = image.tileHasLines[static_cast<std::size_t>(tile)];
+      if (range.hasGeometry() && !rule.drawsNothing() && (!skipTiles || mayHaveEdge(rule, range)))
+      {
+        searched.push_back(tile);
+      }
+      else if (had != 0)
+      {
+        clearTile(image, x, y);
+        had = 0;
+      }
+    }
+  }
+  return searched;
 }
 
 void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts)
@@ -223,8 +269,15 @@ void clearTile(SilhouetteImage& image, int tileX, int tileY)
   const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
   for (int j = y; j < std::min(y + DepthTileSize, image.height); ++j)
   {
-    std::fill_n(image.strength.begin() + static_cast<std::ptrdiff_t>(j) * image.width + x,
-      std::min(DepthTileSize, image.width - x), 0.0F);
+    float* row = image.strength.data() + static_cast<std::ptrdiff_t>(j) * image.width + x;
+    if (image.width - x >= DepthTileSize)
+    {
+      std::fill_n(row, DepthTileSize, 0.0F); // of a length that the compiler knows
+    }
+    else
+    {
+      std::fill_n(row, image.width - x, 0.0F);
+    }
   }
 }
 

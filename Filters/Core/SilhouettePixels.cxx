@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouettePixels.h"
 
+#include <hwy/base.h>
+#include <hwy/cache_control.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -31,33 +33,65 @@ public:
 
   void colorTile(int tileX, int tileY) const
   {
+    fetchTile(tileX, tileY);
     const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
+    const int columns = std::min(DepthTileSize, lines_.width - x);
     for (int j = y; j < std::min(y + DepthTileSize, lines_.height); ++j)
     {
-      for (int i = x; i < std::min(x + DepthTileSize, lines_.width); ++i)
-      {
-        colorPixel(static_cast<std::size_t>(j) * lines_.width + i);
-      }
+      const std::size_t first = static_cast<std::size_t>(j) * lines_.width + x;
+      // Lengths that the compiler knows make these loops fast.
+      columns == DepthTileSize ? colorRow(first, DepthTileSize) : colorRow(first, columns);
     }
   }
 
 private:
+  /// Asks for what is read in a tile before it is needed.
+  void fetchTile(int tileX, int tileY) const
+  {
+    const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
+    for (int j = y; j < std::min(y + DepthTileSize, lines_.height); ++j)
+    {
+      const std::size_t first = static_cast<std::size_t>(j) * lines_.width + x;
+      const auto fetch = [first](const auto* from, std::size_t size)
+      {
+        if (from)
+        {
+          hwy::Prefetch(from + size * first);
+        }
+      };
+      fetch(lines_.strength.data(), 1);
+      fetch(lines_.front.data(), 1);
+      fetch(surroundings_.windowDepth, 1);
+      fetch(surroundings_.rgba, 4);
+    }
+  }
+
+  void colorRow(std::size_t first, int columns) const
+  {
+    const float* strength = &lines_.strength[first];
+    std::fill_n(&pixels_.depth[first], columns, NoLine);
+    std::fill_n(&pixels_.rgba[4 * first], 4 * columns, std::uint8_t(0));
+    unsigned covered = 0;
+    for (int i = 0; i < columns; ++i)
+    {
+      covered |= static_cast<unsigned>(strength[i] > 0) << static_cast<unsigned>(i);
+    }
+    for (; covered != 0; covered &= covered - 1)
+    {
+      colorPixel(first + hwy::Num0BitsBelowLS1Bit_Nonzero32(covered));
+    }
+  }
+
   void colorPixel(std::size_t pixel) const
   {
-    std::uint8_t* rgba = &pixels_.rgba[4 * pixel];
     const float strength = lines_.strength[pixel];
-    if (!(strength > 0))
-    {
-      rgba[3] = 0;
-      pixels_.depth[pixel] = NoLine;
-      return;
-    }
     const float inside = surroundings_.rgba && !lines_.inside.empty() ? lines_.inside[pixel] : 0;
-    const float covered = strength + inside;
+    const float covered = strength + inside, part = 1 / covered;
+    std::uint8_t* rgba = &pixels_.rgba[4 * pixel];
     for (std::size_t channel = 0; channel < 3; ++channel)
     {
-      rgba[channel] = toByte(
-        (strength * lineColor(pixel, channel) + inside * frontColor(pixel, channel)) / covered);
+      rgba[channel] =
+        toByte(part * (strength * lineColor(pixel, channel) + inside * frontColor(pixel, channel)));
     }
     rgba[3] = toByte(covered * style_.opacity);
     pixels_.depth[pixel] = depthAt(pixel);

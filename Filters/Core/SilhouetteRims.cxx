@@ -5,6 +5,8 @@
 #include "SilhouetteEdges.h"
 #include "SilhouetteTiles.h"
 
+#include <hwy/cache_control.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -13,51 +15,58 @@ namespace po
 {
 namespace
 {
-/// The rims of one tile that were met so far.
-class RimCache
+/// A sphere that lies in front of edges.
+struct FrontSphere
+{
+  TracedDepth::NumberedSphere sphere;
+  Rim rim;
+};
+
+/// The spheres in front of the edges of one tile that were met so far. One that is met again after
+/// many others may be there twice.
+class FrontSpheres
 {
 public:
-  RimCache() { entries_.fill({ nullptr, 0 }); }
+  FrontSpheres() { entries_.fill({ SphereScene::None, 0 }); }
 
-  void begin()
+  void clear()
   {
-    for (const Rim& rim : rims_)
+    for (const FrontSphere& one : all_)
     {
-      entries_[slotOf(rim.sphere)] = { nullptr, 0 };
+      entries_[one.rim.shown % Size].number = SphereScene::None;
     }
-    rims_.clear();
+    all_.clear();
   }
 
-  /// Number of a sphere's rim in rims().
-  int numberOf(const RayPatch& patch, const Sphere& sphere)
+  /// The rim of the sphere of a number.
+  Rim& find(const TracedDepth& depth, std::uint32_t number)
   {
-    Entry& entry = entries_[slotOf(&sphere)];
-    if (entry.sphere != &sphere)
+    Entry& entry = entries_[number % Size];
+    if (entry.number != number)
     {
-      entry = { &sphere, static_cast<int>(rims_.size()) };
-      rims_.push_back(makeRim(patch, sphere));
+      entry = { number, all_.size() };
+      FrontSphere& front = all_.emplace_back();
+      front.sphere = depth.sphereOf(number);
+      front.rim.number = static_cast<std::int32_t>(entry.place);
+      front.rim.shown = number;
+      hwy::Prefetch(front.sphere.sphere);
     }
-    return entry.number;
+    return all_[entry.place].rim;
   }
 
-  [[nodiscard]] const std::vector<Rim>& rims() const { return rims_; }
+  [[nodiscard]] std::vector<FrontSphere>& all() { return all_; }
 
 private:
   static constexpr std::size_t Size = 256;
 
   struct Entry
   {
-    const Sphere* sphere;
-    int number;
+    std::uint32_t number;
+    std::size_t place; ///< in all_
   };
 
-  static std::size_t slotOf(const Sphere* sphere)
-  {
-    return reinterpret_cast<std::uintptr_t>(sphere) / sizeof(Sphere) % Size;
-  }
-
-  std::array<Entry, Size> entries_;
-  std::vector<Rim> rims_;
+  std::array<Entry, Size> entries_{};
+  std::vector<FrontSphere> all_;
 };
 
 /// Paints the lines of one tile after the other along the rims of spheres.
@@ -68,7 +77,7 @@ public:
     : depth_(depth)
     , rule_(rule)
     , findFronts_(findFronts)
-    , reach_(static_cast<int>(std::ceil(rule.maximumWidth)))
+    , reach_(reachOfLines(rule))
     , finder_(rule, 1, reach_)
   {
   }
@@ -83,117 +92,97 @@ public:
     {
       return false;
     }
-    cache_.begin();
+    const SampleBlock& block = finder_.block();
+    const int first = block.indexOf(finder_.margin(), finder_.margin());
+    depth_.fillSpheres(block, spheres_);
+    tile_.depth = block.depth.data() + first;
+    tile_.shown = spheres_.data() + first;
+    tile_.pitch = block.stride();
+    placeEdges(image);
     patches_.clear();
-    work_.resize(depth_.layers().size());
     for (const TracedLayer& layer : depth_.layers())
     {
-      work_[patches_.size()].count = 0;
       patches_.push_back(makeRayPatch(layer.rays.around(x_ + Middle, y_ + Middle)));
     }
-    painted_.fill(nullptr);
-    for (const SilhouetteEdge& edge : finder_.edges())
+    tile_.strength.fill(0);
+    bool any = false;
+    for (FrontSphere& front : fronts_.all())
     {
-      addEdge(edge, image);
+      const RayPatch& patch = patches_[front.sphere.layer];
+      front.rim.squaredMoment = squaredMoment(patch, *front.sphere.sphere);
+      any |= paintRim(patch, front.rim, rule_, tile_);
     }
-    clearTile(image, tileX, tileY);
-    for (std::size_t layer = 0; layer < work_.size(); ++layer)
+    if (any)
     {
-      findShares(patches_[layer], cache_.rims(), work_[layer]);
-      write(work_[layer], image);
+      write(image);
     }
-    return true;
+    return any;
   }
 
 private:
   /// Where the rays of the tile are expanded: the centre of the pixel in the middle.
   static constexpr double Middle = DepthTileSize / 2 + 0.5;
 
-  /// A line: behind an edge, along the rim of a sphere.
-  struct Line
+  /// Puts the edges into the tile, with the spheres in front of them.
+  void placeEdges(const SilhouetteImage& image)
   {
-    const Sphere* sphere;
-    std::size_t layer;
-    float front;  ///< depth before the jump
-    float behind; ///< and after it
-    int rim;
-    std::int32_t frontPixel;
-  };
-
-  /// Notes all pixels that the line of an edge can cover.
-  void addEdge(const SilhouetteEdge& edge, const SilhouetteImage& image)
-  {
+    fronts_.clear();
+    const int begin = RimTile::edgeIndexOf(-reach_, -reach_);
+    const int end = RimTile::edgeIndexOf(DepthTileSize + reach_, DepthTileSize + reach_);
+    std::fill(
+      tile_.rims.begin() + begin, tile_.rims.begin() + std::min<int>(end, tile_.rims.size()), -1);
     const SampleBlock& block = finder_.block();
-    const int frontPixel = block.pixelOf(edge.front, image.width, image.height);
-    const TracedLayer& layer = depth_.layerAt(static_cast<std::size_t>(frontPixel));
-    const Sphere& sphere = layer.spheres[layer.frame.sphere[static_cast<std::size_t>(frontPixel)]];
-    const auto number = static_cast<std::size_t>(&layer - depth_.layers().data());
-    const Line line{ &sphere, number, block.depth[static_cast<std::size_t>(edge.front)],
-      block.depth[static_cast<std::size_t>(edge.behind)], cache_.numberOf(patches_[number], sphere),
-      frontPixel };
-    const int i = edge.behind % block.columns - finder_.margin();
-    const int j = edge.behind / block.columns - finder_.margin();
-    for (int v = std::max(0, j - reach_); v < std::min(rows_, j + reach_ + 1); ++v)
+    for (const SilhouetteEdge& edge : finder_.edges())
     {
-      for (int u = std::max(0, i - reach_); u < std::min(columns_, i + reach_ + 1); ++u)
+      const int front = block.indexOf(edge.frontI, edge.frontJ);
+      Rim& rim = fronts_.find(depth_, spheres_[static_cast<std::size_t>(front)]);
+      const int i = edge.i - finder_.margin(), j = edge.j - finder_.margin();
+      const auto at = static_cast<std::size_t>(RimTile::edgeIndexOf(i, j));
+      tile_.rims[at] = rim.number;
+      tile_.fronts[at] = edge.front;
+      tile_.jumps[at] = edge.behind - edge.front;
+      tile_.frontPixels[at] = block.pixelOf(edge.frontI, edge.frontJ, image.width, image.height);
+      addReach(rim, i, j);
+    }
+  }
+
+  /// Notes the pixels that the line of an edge can cover.
+  void addReach(Rim& rim, int i, int j) const
+  {
+    const int first = std::max(0, i - reach_), end = std::min(columns_, i + reach_ + 1);
+    const std::uint32_t bits = first < end ? (1U << end) - (1U << first) : 0;
+    for (int row = std::max(0, j - reach_); row < std::min(rows_, j + reach_ + 1); ++row)
+    {
+      rim.pixels[static_cast<std::size_t>(row)] |= bits;
+    }
+  }
+
+  void write(SilhouetteImage& image) const
+  {
+    for (int row = 0; row < rows_; ++row)
+    {
+      writeRow(tile_.strength, row, image, image.strength);
+      if (findFronts_)
       {
-        const bool isEdge = u == i && v == j;
-        if (isEdge || painted_[static_cast<std::size_t>(v * DepthTileSize + u)] != &sphere)
-        {
-          addPixel(line, u, v, isEdge, image.width);
-        }
+        writeRow(tile_.inside, row, image, image.inside);
+        writeRow(tile_.front, row, image, image.front);
       }
     }
   }
 
-  void addPixel(const Line& line, int u, int v, bool isEdge, int width)
+  template <typename T>
+  void writeRow(
+    const RimTile::Pixels<T>& from, int row, const SilhouetteImage& image, std::vector<T>& to) const
   {
-    const float behind = isEdge ? line.behind : depthBehind(line, u, v, width);
-    const float jump = behind - line.front;
-    const bool isOutline = jump == std::numeric_limits<float>::infinity();
-    if (!isEdge &&
-      (!(jump > static_cast<float>(rule_.jump)) || (isOutline && !rule_.backgroundLines)))
+    const T* first = from.data() + RimTile::indexOf(0, row);
+    T* target = to.data() + static_cast<std::ptrdiff_t>(y_ + row) * image.width + x_;
+    if (columns_ == DepthTileSize)
     {
-      return;
+      std::copy(first, first + DepthTileSize, target); // of a length that the compiler knows
     }
-    const int at = v * DepthTileSize + u;
-    painted_[static_cast<std::size_t>(at)] = line.sphere;
-    const float ramp = rule_.ramp.at(jump);
-    work_[line.layer].add({ line.rim, at, static_cast<float>(u - DepthTileSize / 2),
-      static_cast<float>(v - DepthTileSize / 2),
-      static_cast<float>(rule_.width + ramp * (rule_.maximumWidth - rule_.width)),
-      rule_.greyByJump ? ramp : 1, isEdge, line.frontPixel });
-  }
-
-  /// Depth of what lies behind the sphere at pixel (u, v). Pixels of the sphere itself are covered
-  /// in part, by what lies behind it at the edge.
-  [[nodiscard]] float depthBehind(const Line& line, int u, int v, int width) const
-  {
-    const std::size_t pixel = static_cast<std::size_t>(y_ + v) * width + x_ + u;
-    const TracedLayer& layer = depth_.layerAt(pixel);
-    const std::uint32_t shown = layer.frame.sphere[pixel];
-    const bool isFront = shown != SphereScene::None && line.sphere == &layer.spheres[shown];
-    const int margin = finder_.margin();
-    const auto at = (v + margin) * finder_.block().columns + u + margin;
-    return isFront ? line.behind : finder_.block().depth[static_cast<std::size_t>(at)];
-  }
-
-  void write(const RimWork& work, SilhouetteImage& image) const
-  {
-    for (std::size_t i = 0; i < work.count; ++i)
+    else
     {
-      const std::size_t pixel =
-        static_cast<std::size_t>(y_ + work.pixels[i] / DepthTileSize) * image.width + x_ +
-        work.pixels[i] % DepthTileSize;
-      if (work.strengths[i] > image.strength[pixel])
-      {
-        image.strength[pixel] = work.strengths[i];
-        if (findFronts_)
-        {
-          image.front[pixel] = work.frontPixels[i];
-          image.inside[pixel] = work.insides[i];
-        }
-      }
+      std::copy(first, first + columns_, target);
     }
   }
 
@@ -202,11 +191,11 @@ private:
   bool findFronts_;
   int reach_; ///< pixels beyond an edge that its line can cover
   EdgeFinder finder_;
-  RimCache cache_;
-  std::vector<RimWork> work_;     ///< one a layer
-  std::vector<RayPatch> patches_; ///< one a layer
+  FrontSpheres fronts_;
+  std::vector<RayPatch> patches_;      ///< one a layer
+  std::vector<std::uint32_t> spheres_; ///< that the pixels of the block show
   int x_ = 0, y_ = 0, columns_ = 0, rows_ = 0;
-  std::array<const Sphere*, DepthTileSize * DepthTileSize> painted_{}; ///< whose line was last
+  RimTile tile_{};
 };
 }
 

@@ -8,19 +8,20 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include <functional>
+#include <vector>
 
 /// The loop over tiles that all ways to draw silhouettes share.
 namespace po
 {
-/// The range of a tile and of the tiles around it, in an image of columns x rows tiles.
-[[nodiscard]] inline DepthRange rangeAround(
-  const std::vector<DepthRange>& ranges, int columns, int rows, int tileX, int tileY)
+/// The range of tiles [x0, x1) x [y0, y1) of an image of so many columns, as far as they lie in it.
+[[nodiscard]] inline DepthRange rangeOf(
+  const std::vector<DepthRange>& ranges, int columns, int x0, int x1, int y0, int y1)
 {
+  const int rows = static_cast<int>(ranges.size()) / columns;
   DepthRange range;
-  for (int y = std::max(0, tileY - 1); y < std::min(rows, tileY + 2); ++y)
+  for (int y = std::max(0, y0); y < std::min(rows, y1); ++y)
   {
-    for (int x = std::max(0, tileX - 1); x < std::min(columns, tileX + 2); ++x)
+    for (int x = std::max(0, x0); x < std::min(columns, x1); ++x)
     {
       range.add(ranges[static_cast<std::size_t>(y) * columns + x]);
     }
@@ -28,13 +29,14 @@ namespace po
   return range;
 }
 
-/// Can there be an edge between depths of this range? May err towards yes.
-[[nodiscard]] bool mayHaveEdge(const SilhouetteRule& rule, DepthRange range);
-
 /// Gives the image the size of the source. What is there stays if it has that size.
 void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts);
 
 void clearTile(SilhouetteImage& image, int tileX, int tileY);
+
+/// The tiles that may have lines. Those of the others that had lines before are cleared.
+[[nodiscard]] std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges,
+  const SilhouetteRule& rule, SilhouetteImage& image, bool skipTiles);
 
 /// Paints all tiles in parallel, but those that cannot have lines.
 ///
@@ -45,38 +47,33 @@ SilhouetteCounters paintTiles(const DepthSource& source, const SilhouetteRule& r
   SilhouetteImage& image, const SilhouetteOptions& options, const MakePainter& makePainter)
 {
   resizeFor(image, source, options.findFronts);
-  const int columns = depthTiles(image.width), rows = depthTiles(image.height);
+  const int columns = depthTiles(image.width);
   const std::vector<DepthRange>& ranges = source.ranges();
-  using Painter = decltype(makePainter());
-  tbb::enumerable_thread_specific<Painter> painters(makePainter);
-  tbb::enumerable_thread_specific<std::size_t> skipped(0);
-  const auto paintTile = [&](int tile)
+  const std::vector<int> searched = tilesToSearch(ranges, rule, image, options.skipTiles);
+  const auto paintTile = [&](auto& painter, int tile)
   {
     const int x = tile % columns, y = tile / columns;
-    const DepthRange range = rangeAround(ranges, columns, rows, x, y);
-    const bool searched = range.hasGeometry() && !rule.drawsNothing() &&
-      (!options.skipTiles || mayHaveEdge(rule, range));
-    skipped.local() += !searched;
-    const bool lines = searched && painters.local().paint(x, y, range, image);
+    const DepthRange range = rangeOf(ranges, columns, x - 1, x + 2, y - 1, y + 2);
     std::uint8_t& had = image.tileHasLines[static_cast<std::size_t>(tile)];
+    const bool lines = painter.paint(x, y, range, image);
     if (!lines && had != 0)
     {
       clearTile(image, x, y);
     }
     had = lines;
   };
-  tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 128),
-    [&](const tbb::blocked_range<int>& tiles)
+  tbb::enumerable_thread_specific<decltype(makePainter())> painters(makePainter);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, searched.size(), 32),
+    [&](const tbb::blocked_range<std::size_t>& part)
     {
-      for (int tile = tiles.begin(); tile < tiles.end(); ++tile)
+      auto& painter = painters.local();
+      for (std::size_t i = part.begin(); i < part.end(); ++i)
       {
-        paintTile(tile);
+        paintTile(painter, searched[i]);
       }
     });
-  SilhouetteCounters counters;
-  counters.tiles = static_cast<std::size_t>(columns) * rows;
-  counters.tilesSkipped = skipped.combine(std::plus<>());
-  return counters;
+  const std::size_t tiles = ranges.size();
+  return { tiles, tiles - searched.size() };
 }
 }
 

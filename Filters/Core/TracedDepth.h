@@ -32,14 +32,25 @@ public:
   }
   void fill(SampleBlock& block) const override;
 
-  /// The layer that pixel `pixel` shows.
-  [[nodiscard]] const TracedLayer& layerAt(std::size_t pixel) const;
+  /// A sphere of one of the layers, which are counted one after the other.
+  struct NumberedSphere
+  {
+    std::size_t layer;
+    const Sphere* sphere;
+  };
+
+  [[nodiscard]] NumberedSphere sphereOf(std::uint32_t number) const;
+
+  /// Numbers of the spheres that the pixels of a block show, SphereScene::None where there is none;
+  /// as many numbers as the block has depths.
+  void fillSpheres(const SampleBlock& block, std::vector<std::uint32_t>& numbers) const;
 
 private:
-  void fillRow(SampleBlock& block, int j) const;
+  [[nodiscard]] std::uint32_t numberAt(std::size_t pixel) const;
 
   std::vector<TracedLayer> layers_;
-  std::vector<DepthRange> merged_; ///< of several layers
+  std::vector<std::uint32_t> firstSpheres_; ///< number of the first sphere of each layer
+  std::vector<DepthRange> merged_;          ///< of several layers
 };
 }
 

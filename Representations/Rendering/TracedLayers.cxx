@@ -79,15 +79,20 @@ std::vector<vtkActor*> actorsOf(const std::vector<TracedActor>& traced)
   return actors;
 }
 
-void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth)
+const float* windowDepthOf(const std::vector<TracedActor>& actors, std::vector<float>& merged)
 {
-  windowDepth = actors.front().renderer->frame().windowDepth;
+  if (actors.size() == 1)
+  {
+    return actors.front().renderer->frame().windowDepth.data();
+  }
+  merged = actors.front().renderer->frame().windowDepth;
   for (std::size_t i = 1; i < actors.size(); ++i)
   {
     const std::vector<float>& other = actors[i].renderer->frame().windowDepth;
-    std::transform(other.begin(), other.end(), windowDepth.begin(), windowDepth.begin(),
+    std::transform(other.begin(), other.end(), merged.begin(), merged.begin(),
       [](float a, float b) { return std::min(a, b); });
   }
+  return merged.data();
 }
 
 const std::uint8_t* colorsOf(

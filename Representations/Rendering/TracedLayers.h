@@ -36,8 +36,10 @@ struct TracedActor
 
 [[nodiscard]] std::vector<vtkActor*> actorsOf(const std::vector<TracedActor>& traced);
 
-/// Window depth of each pixel, the nearest of all actors.
-void mergeWindowDepth(const std::vector<TracedActor>& actors, std::vector<float>& windowDepth);
+/// Window depth of each pixel, the nearest of all actors. `merged` is where depths are put
+/// together, if there is more than one actor.
+[[nodiscard]] const float* windowDepthOf(
+  const std::vector<TracedActor>& actors, std::vector<float>& merged);
 
 /// RGBA bytes of each pixel, of the nearest of all actors. `merged` is where they are put together,
 /// if there is more than one actor.

@@ -127,7 +127,8 @@ struct vtkDepthSilhouettePass::Internals
   vtkNew<vtkRenderStepsPass> ActorsPass;         ///< draws them alone
   po::SilhouetteScale Scale;                     ///< of the last whole picture
   bool HasScale = false;
-  std::vector<float> ZBuffer, Distances, FrontDepth;
+  std::vector<float> ZBuffer, Distances, WindowDepth;
+  const float* FrontDepth = nullptr; ///< what lines are hidden by; null: nothing
   std::vector<std::uint8_t> Colors;
   po::SilhouetteImage Lines;
   po::SilhouettePixels Pixels;
@@ -233,11 +234,7 @@ std::string vtkDepthSilhouettePass::FindInTracedFrames(const vtkRenderState* sta
   po::findTracedSilhouettes(
     po::depthOf(actors), rule, self.Lines, { this->Darken || placed || rule.samples > 1, true });
   self.Margin = margin;
-  self.FrontDepth.clear();
-  if (placed)
-  {
-    po::mergeWindowDepth(actors, self.FrontDepth);
-  }
+  self.FrontDepth = placed ? po::windowDepthOf(actors, self.WindowDepth) : nullptr;
   return "";
 }
 
@@ -268,10 +265,11 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
   po::findSilhouettes(
     depth, po::resolve(parameters, scale), self.Lines, { this->Darken || placed, true });
   self.Margin = margin;
-  self.FrontDepth.clear();
+  self.FrontDepth = nullptr;
   if (placed)
   {
-    findNearest(self.ZBuffer, depth.width(), depth.height(), samples, self.FrontDepth);
+    findNearest(self.ZBuffer, depth.width(), depth.height(), samples, self.WindowDepth);
+    self.FrontDepth = self.WindowDepth.data();
   }
   return "";
 }
@@ -331,7 +329,7 @@ std::string vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state)
     }
     surroundings.rgba = self.Colors.data();
   }
-  surroundings.windowDepth = self.FrontDepth.empty() ? nullptr : self.FrontDepth.data();
+  surroundings.windowDepth = self.FrontDepth;
   po::colorSilhouettes(self.Lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
   return self.Painter.draw(windowOf(state), viewport, self.Margin, self.Pixels);
 }

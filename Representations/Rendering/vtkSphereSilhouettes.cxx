@@ -131,9 +131,8 @@ bool vtkSphereSilhouettes::Find(const po::SilhouetteViewport& place)
   const po::SilhouetteRule rule =
     po::resolve(po::silhouetteParametersOf(*this), *po::scaleOf(po::actorsOf(actors)));
   po::findTracedSilhouettes(po::depthOf(actors), rule, self.Lines, { true, true });
-  po::mergeWindowDepth(actors, self.WindowDepth);
   const po::SilhouetteSurroundings surroundings{ po::colorsOf(actors, self.Colors),
-    self.WindowDepth.data() };
+    po::windowDepthOf(actors, self.WindowDepth) };
   po::colorSilhouettes(self.Lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
   return true;
 }

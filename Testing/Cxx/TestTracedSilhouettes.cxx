@@ -110,6 +110,21 @@ TEST(TracedSilhouettes, WithOneSampleHaveTheBitsOfTheFilter)
   }
 }
 
+/// Vectors are longer than the rows of some windows.
+TEST(TracedSilhouettes, NarrowWindowsHaveTheLinesOfTheFilter)
+{
+  for (const int width : { 1, 2, 5, 8, 15, 17, 23 })
+  {
+    const Camera camera = lookAtOrigin(true, 50, 12, width, 40, 1, 200);
+    const Traced traced(heap(), camera);
+    const SilhouetteParameters parameters = threshold(3, 1);
+    EXPECT_EQ(traced.lines(parameters).strength, filtered(heap(), camera, parameters)) << width;
+    const auto smooth = traced.lines(threshold(3, 4)).strength;
+    EXPECT_EQ(smooth.size(), static_cast<std::size_t>(40 * width));
+    EXPECT_EQ(traced.lines(threshold(3, 4), { false, false }).strength, smooth) << width;
+  }
+}
+
 TEST(TracedSilhouettes, TileRangesAreThoseOfTheirPixels)
 {
   const Traced traced(heap(), lookAtOrigin(true, 50, 12, 301, 215, 1, 200));
