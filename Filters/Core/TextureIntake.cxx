@@ -16,7 +16,7 @@ namespace
 double brightestOf(const BakeSettings& settings)
 {
   const bool isKnown = settings.storage == Storage::Full &&
-    settings.encoding == Encoding::UInt8Gamma2 &&
+    settings.encoding == Encoding::UInt8Gamma2 && !settings.light &&
     std::holds_alternative<UniformBackground>(settings.background);
   return isKnown ? 1 : std::numeric_limits<double>::infinity();
 }
