@@ -75,7 +75,7 @@ def save_files(baked, display):
     display.LayersFile = output("layers.exr")
     display.SMProxy.InvokeCommand("WriteLayers")
     SaveData(output("textures.exr"), baked)
-    # Binary: this ParaView cannot read appended data.
+    # Binary: ParaView 5.11 of Debian cannot read appended data everywhere.
     SaveData(output("baked.vtp"), baked, DataMode="Binary")
     SaveState(output("state.pvsm"))
 

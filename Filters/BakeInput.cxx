@@ -55,10 +55,7 @@ void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint
   const BakeSettings& settings, const ProcessGroup& group)
 {
   const SphereCloud& own = input.own;
-  const float reach = settings.maximumDistance > 0
-    ? static_cast<float>(settings.maximumDistance / own.scale)
-    : std::numeric_limits<float>::infinity();
-  const Neighbourhood neighbourhood(own.spheres, reach, group);
+  const Neighbourhood neighbourhood(own.spheres, own.toLocalReach(settings.maximumDistance), group);
   SharedSpheres shared = shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
   input.places = std::move(shared.places);
 

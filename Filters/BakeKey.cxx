@@ -51,7 +51,7 @@ void add(Digest& digest, const ImageBackground& image)
 void add(Digest& digest, const BakeSettings& settings)
 {
   const auto& [textureResolution, samplesPerTexel, maximumDistance, dilateInside, insideThreshold,
-    encoding, storage, storageError, seed, background] = settings;
+    encoding, storage, storageError, seed, background, distantLight] = settings;
   addNumber(digest, textureResolution);
   addNumber(digest, samplesPerTexel);
   addNumber(digest, maximumDistance);
@@ -62,7 +62,13 @@ void add(Digest& digest, const BakeSettings& settings)
   addNumber(digest, storageError);
   addNumber(digest, seed);
   addNumber(digest, background.index());
-  std::visit([&](const auto& light) { add(digest, light); }, background);
+  std::visit([&](const auto& sky) { add(digest, sky); }, background);
+  if (distantLight) // without one the keys are those that there were before there were lights
+  {
+    const auto& [direction, intensity] = *distantLight;
+    add(digest, direction);
+    addNumber(digest, intensity);
+  }
 }
 
 void add(Digest& digest, const SphereCloud& cloud)

@@ -5,6 +5,7 @@
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -49,15 +50,20 @@ void requireNotNegative(const char* name, double value, const char* zeroMeans = 
   }
 }
 
+Vec3d directionOf(const char* name, const double* value)
+{
+  const Vec3d direction{ value[0], value[1], value[2] };
+  if (!(length(direction) > 0) || !std::isfinite(length(direction)))
+  {
+    throw std::invalid_argument(std::string(name) + " must be a direction, not the zero vector.");
+  }
+  return direction;
+}
+
 GradientBackground gradientOf(vtkSphereAmbientOcclusion& filter)
 {
-  const double* up = filter.GetBackgroundUp();
-  const GradientBackground gradient{ { up[0], up[1], up[2] }, filter.GetBackgroundBottom(),
-    filter.GetBackgroundTop() };
-  if (!(length(gradient.up) > 0) || !std::isfinite(length(gradient.up)))
-  {
-    throw std::invalid_argument("BackgroundUp must be a direction, not the zero vector.");
-  }
+  const GradientBackground gradient{ directionOf("BackgroundUp", filter.GetBackgroundUp()),
+    filter.GetBackgroundBottom(), filter.GetBackgroundTop() };
   requireNotNegative("BackgroundBottom", gradient.bottom);
   requireNotNegative("BackgroundTop", gradient.top);
   return gradient;
@@ -91,23 +97,49 @@ Background backgroundOf(vtkSphereAmbientOcclusion& filter)
   return UniformBackground{};
 }
 
+std::optional<DistantLight> lightOf(vtkSphereAmbientOcclusion& filter)
+{
+  if (!filter.GetBakeLight())
+  {
+    return {};
+  }
+  requireNotNegative("LightIntensity", filter.GetLightIntensity());
+  return DistantLight{ directionOf("LightDirection", filter.GetLightDirection()),
+    filter.GetLightIntensity() };
+}
+
+std::string textOf(const double* v)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(17);
+  text << v[0] << ' ' << v[1] << ' ' << v[2];
+  return text.str();
+}
+
 void describeBackground(vtkSphereAmbientOcclusion& filter, OcclusionParameters& parameters)
 {
   parameters.set("background", BackgroundNames[filter.GetBackground()]);
   if (filter.GetBackground() == vtkSphereAmbientOcclusion::Gradient)
   {
-    const double* direction = filter.GetBackgroundUp();
-    std::ostringstream up;
-    up.imbue(std::locale::classic());
-    up.precision(17);
-    up << direction[0] << ' ' << direction[1] << ' ' << direction[2];
-    parameters.set("backgroundUp", up.str());
+    parameters.set("backgroundUp", textOf(filter.GetBackgroundUp()));
     parameters.set("backgroundBottom", filter.GetBackgroundBottom());
     parameters.set("backgroundTop", filter.GetBackgroundTop());
   }
   if (filter.GetBackground() == vtkSphereAmbientOcclusion::Image)
   {
     parameters.set("backgroundImage", textOf(filter.GetBackgroundImage()));
+  }
+}
+
+/// Only of a bake that has one: others are described as they were before there were lights.
+void describeLight(vtkSphereAmbientOcclusion& filter, OcclusionParameters& parameters)
+{
+  if (filter.GetBakeLight())
+  {
+    parameters.set(BakedLightParameter, true);
+    parameters.set("lightDirection", textOf(filter.GetLightDirection()));
+    parameters.set("lightIntensity", filter.GetLightIntensity());
   }
 }
 
@@ -151,6 +183,7 @@ BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter)
   settings.storageError = filter.GetStorageError();
   settings.seed = static_cast<std::uint64_t>(filter.GetSeed());
   settings.background = backgroundOf(filter);
+  settings.light = lightOf(filter);
   return settings;
 }
 
@@ -202,6 +235,7 @@ OcclusionParameters describeBake(
   parameters.set("radiusFrom", filter.GetRadiusFrom());
   parameters.set("density", filter.GetDensity());
   describeBackground(filter, parameters);
+  describeLight(filter, parameters);
   parameters.set("targetError", filter.GetTargetError());
   parameters.set("estimatedError", report.estimatedError);
   parameters.set("directions", report.directions);

@@ -35,6 +35,7 @@ struct TableFormat
   bool bytes = false;
   double maximum = 1;
   std::optional<PackedFormat> packed; ///< of textures of different lengths
+  bool hasLight = false;
 };
 
 bool operator==(const TableFormat& a, const TableFormat& b)
@@ -96,6 +97,7 @@ TableFormat readFormat(vtkFieldData* fields)
     }
   }
   format.packed = readPacked(parameters, fields);
+  format.hasLight = parameters.hasBakedLight();
   if (format.packed && !format.bytes)
   {
     fail(ParametersArray, "names an encoding in which textures have one length");
@@ -210,6 +212,7 @@ BakedTextures readArrays(vtkPointSet& points, TableFormat& format)
   baked.rows = as<vtkIntArray>(rows);
   checkRows(baked.rows, table->GetNumberOfTuples());
   baked.table = table;
+  baked.hasLight = format.hasLight;
   if (format.packed)
   {
     baked.packed = std::make_shared<PackedTextures>(*format.packed,
@@ -350,6 +353,10 @@ void attachMergedTable(std::vector<Part>& parts, vtkFieldData* parameters, vtkPo
     appendRows(part, static_cast<std::int32_t>(offset), rows);
   }
   OcclusionParameters description = OcclusionParameters::fromFieldData(parameters);
+  if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.baked.hasLight; }))
+  {
+    description.set(BakedLightParameter, true);
+  }
   if (!copyAsIs)
   {
     description.set("encoding", Float32Linear);

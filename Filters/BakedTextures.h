@@ -30,6 +30,7 @@ struct BakedTextures
   vtkSmartPointer<vtkDataArray> rows;           ///< int32, one value a point
   vtkSmartPointer<vtkDataArray> means;          ///< float32, one value a point, or null
   std::shared_ptr<const PackedTextures> packed; ///< of textures of different lengths, or null
+  bool hasLight = false;                        ///< direct light is in the textures
 };
 
 /// Textures of different lengths as rows of a table of T x T texels.

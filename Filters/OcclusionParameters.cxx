@@ -107,6 +107,11 @@ long long OcclusionParameters::getInteger(const std::string& key) const
   return parse<long long>(key, get(key));
 }
 
+bool OcclusionParameters::hasBakedLight() const
+{
+  return has(BakedLightParameter) && getInteger(BakedLightParameter) != 0;
+}
+
 std::vector<std::string> OcclusionParameters::toStrings() const
 {
   std::vector<std::string> strings;

@@ -23,6 +23,9 @@ inline constexpr const char* ParametersArray = "AmbientOcclusionParameters";
 inline constexpr const char* UInt8Gamma2 = "UInt8Gamma2";
 inline constexpr const char* Float32Linear = "Float32Linear";
 
+/// Is "1" where the textures hold direct light too, else missing.
+inline constexpr const char* BakedLightParameter = "bakeLight";
+
 /// Values of the parameter "storage"; without it the storage is Full.
 inline constexpr const char* FullStorage = "Full";
 inline constexpr const char* VariableSizeStorage = "VariableSize";
@@ -57,6 +60,9 @@ public:
   [[nodiscard]] const std::string& get(const std::string& key) const;
   [[nodiscard]] double getDouble(const std::string& key) const;
   [[nodiscard]] long long getInteger(const std::string& key) const;
+
+  /// Do the textures hold direct light too? Pictures must not add any then.
+  [[nodiscard]] bool hasBakedLight() const;
 
   [[nodiscard]] const std::vector<Entry>& entries() const { return list_; }
 

@@ -199,6 +199,10 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Method: " << this->Method << "\n"
      << indent << "MaximumDistance: " << this->MaximumDistance << "\n"
      << indent << "Background: " << this->Background << "\n"
+     << indent << "BakeLight: " << this->BakeLight << "\n"
+     << indent << "LightDirection: " << this->LightDirection[0] << " " << this->LightDirection[1]
+     << " " << this->LightDirection[2] << "\n"
+     << indent << "LightIntensity: " << this->LightIntensity << "\n"
      << indent << "DilateInside: " << this->DilateInside << "\n"
      << indent << "InsideThreshold: " << this->InsideThreshold << "\n"
      << indent << "Encoding: " << this->Encoding << "\n"

@@ -39,7 +39,8 @@ class vtkMultiProcessController;
  *   table and to bake it again.
  *
  * A texel is the mean of (1/pi) * integral of V(x, w) L(w) max(0, n.w) dw over the part of its area
- * that is outside all other spheres: V is visibility, L the luminance of the background. Component
+ * that is outside all other spheres: V is visibility, L the luminance of the background; with
+ * BakeLight direct light is mixed in. Component
  * j*T + i covers polar angles [j pi/T, (j+1) pi/T] from +z and azimuths [2 pi i/T, 2 pi (i+1)/T]
  * from +x towards +y.
  *
@@ -213,6 +214,34 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Bake a distant light too, with hard shadows [off]. A texel is then (A + I D) / (1 + I): A its
+   * value without, I the LightIntensity, and D the mean of V(x, l) max(0, n.l) over the part of its
+   * area that is outside all other spheres, with l the direction towards the light.
+   * AmbientOcclusion is the mean of these values. vtkRayTracedSphereMapper then does not light the
+   * textures again.
+   */
+  vtkSetMacro(BakeLight, bool);
+  vtkGetMacro(BakeLight, bool);
+  vtkBooleanMacro(BakeLight, bool);
+  ///@}
+
+  ///@{
+  /// Direction in world space along which the baked light shines, -l; any length but zero
+  /// [1 -1 -1: from the upper left of a view along -z].
+  vtkSetVector3Macro(LightDirection, double);
+  vtkGetVector3Macro(LightDirection, double);
+  ///@}
+
+  ///@{
+  /// What a surface that faces the baked light receives of it, where an open one receives 1 of the
+  /// uniform background, at least 0 [1]. Values do not grow with it, since they are divided by
+  /// 1 + LightIntensity: at 0 only the background is seen, at large values only the light.
+  vtkSetMacro(LightIntensity, double);
+  vtkGetMacro(LightIntensity, double);
+  ///@}
+
+  ///@{
   /// Fill texels that lie inside other particles from their neighbours, so that interpolation does
   /// not darken the rim of an overlap [on]. When off they are 0.
   vtkSetMacro(DilateInside, bool);
@@ -373,6 +402,9 @@ private:
   double BackgroundBottom = 0.0;
   double BackgroundTop = 1.0;
   char* BackgroundImage = nullptr;
+  bool BakeLight = false;
+  double LightDirection[3] = { 1, -1, -1 };
+  double LightIntensity = 1.0;
   bool DilateInside = true;
   double InsideThreshold = 0.05;
   int Encoding = UInt8Gamma2;

@@ -147,6 +147,10 @@ const char* vtkSphereAmbientOcclusion::GetBakeEstimate()
   work.settings.samplesPerTexel = this->SamplesPerTexel;
   work.settings.encoding = static_cast<po::Encoding>(this->Encoding);
   work.settings.storage = static_cast<po::Storage>(this->Storage);
+  if (this->BakeLight)
+  {
+    work.settings.light.emplace();
+  }
   work.targetError = this->TargetError;
   const vtkNew<vtkBakeResources> resources;
   this->Impl->Estimate = po::describe(po::estimateCost(work), work.particles,

@@ -44,7 +44,7 @@ def stem(path):
 def save(baked, path):
     information = baked.GetDataInformation()
     extension = ".vtm" if information.IsCompositeDataSet() else EXTENSIONS[information.GetDataSetTypeAsString()]
-    # Binary: ParaView 5.11 of Debian cannot read appended data.
+    # Binary: ParaView 5.11 of Debian cannot read appended data everywhere.
     SaveData(path + extension, baked, DataMode="Binary")
     return os.path.exists(path + extension)
 

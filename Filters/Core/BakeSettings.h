@@ -5,6 +5,7 @@
 #include "Background.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace po
 {
@@ -24,6 +25,15 @@ enum class Storage
   OneValue = 3,     ///< the particle's mean alone
 };
 
+/// One light that is infinitely far away, with hard shadows.
+struct DistantLight
+{
+  Vec3d direction{ 1, -1, -1 }; ///< along which it shines, in the world; any length but zero
+  /// What a surface that faces it receives, where an open one receives 1 of the uniform background;
+  /// at least 0.
+  double intensity = 1;
+};
+
 /// What a bake is asked for. Lengths are in the units of the input data.
 struct BakeSettings
 {
@@ -40,6 +50,7 @@ struct BakeSettings
   double storageError = 0.01; ///< what VariableSize and Compressed may add to the RMS error, 0 to 1
   std::uint64_t seed = 1;
   Background background = UniformBackground{};
+  std::optional<DistantLight> light; ///< is baked too, see BakedLight
 };
 }
 

@@ -11,7 +11,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 namespace po
@@ -49,13 +48,6 @@ struct ParticleWork
   SquaredError error;
   bool finished = false;
 };
-
-float localDistance(const BakeScene& scene, const BakeSettings& settings)
-{
-  return settings.maximumDistance > 0
-    ? static_cast<float>(settings.maximumDistance / scene.cloud.scale)
-    : std::numeric_limits<float>::infinity();
-}
 
 /// Directions without a target.
 int directionsOf(const EmbreeOptions& options, const BakeSettings& settings)
@@ -122,8 +114,9 @@ public:
         [this]
         {
           const std::vector<GroupMask> mask(texels_.groups());
-          return Workspace{ ParticleView(scene_, localDistance(scene_, settings_), share_), {},
-            mask, mask, {} };
+          return Workspace{ ParticleView(
+                              scene_, scene_.cloud.toLocalReach(settings_.maximumDistance), share_),
+            {}, mask, mask, {} };
         })
   {
   }
@@ -261,33 +254,15 @@ private:
       {
         return;
       }
-      if (!beginMasks(direction, exposure, work))
+      if (!facingOutside(direction.facing, exposure, direction.pattern, work.exposed))
       {
         continue;
       }
+      work.seen = work.exposed;
       Random random(settings_.seed, scene_.randomKey(id), direction.index);
       work.view.hide(direction, random, work.seen.data());
       sums.add(direction, work.exposed.data(), work.seen.data());
     }
-  }
-
-  /// The texels that face a direction with points outside all other spheres; false if there are
-  /// none.
-  bool beginMasks(
-    const SharedDirection& direction, const TexelExposure& exposure, Workspace& work) const
-  {
-    work.exposed = direction.facing.facing;
-    if (!exposure.bits.empty())
-    {
-      const GroupMask* outside = exposure.ofPattern(direction.pattern, texels_.groups());
-      for (std::size_t group = 0; group < texels_.groups(); ++group)
-      {
-        work.exposed[group] = static_cast<GroupMask>(work.exposed[group] & outside[group]);
-      }
-    }
-    work.seen = work.exposed;
-    return std::any_of(
-      work.exposed.begin(), work.exposed.end(), [](GroupMask mask) { return mask != 0; });
   }
 
   void countSet(std::size_t set, const DirectionSet& directions)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OcclusionBaker.h"
 
+#include "BakedLight.h"
 #include "Dilation.h"
 #include "Random.h"
 #include "TexelMap.h"
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <optional>
 
 namespace po
 {
@@ -259,9 +261,16 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
 {
   BakeResult result;
   TextureCollector collector(settings, particles.size());
+  std::optional<BakedLight> light;
+  if (settings.light)
+  {
+    light.emplace(scene, particles, settings);
+  }
   estimator.estimate(
-    scene, particles, settings, progress, [&](const RawTextures& raw) { collector.add(raw); },
+    scene, particles, settings, progress,
+    [&](const RawTextures& raw) { collector.add(light ? light->addTo(raw, progress) : raw); },
     result.counters);
+  result.counters.rays += light ? light->rays() : 0;
   result.aborted = progress.aborted();
   if (!result.aborted)
   {

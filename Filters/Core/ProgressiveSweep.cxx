@@ -71,13 +71,6 @@ void replace(const TextureReplacements& by, std::size_t first, std::size_t count
   }
 }
 
-float localDistance(const BakeScene& scene, const BakeSettings& settings)
-{
-  return settings.maximumDistance > 0
-    ? static_cast<float>(settings.maximumDistance / scene.cloud.scale)
-    : Unbounded;
-}
-
 /// Flags, by index in the order, of the spheres outside the distance of any other. Where rounding
 /// might matter a sphere is not alone.
 std::vector<std::uint8_t> aloneFlags(
@@ -108,10 +101,12 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   , order_(scene.rays.set())
   , texels_(settings.textureResolution)
   , watched_(watchedSpheres(order_, particles_, settings.seed, watch))
-  , alone_(aloneFlags(scene, order_, skips.lonely ? localDistance(scene, settings) : Unbounded))
+  , alone_(aloneFlags(
+      scene, order_, skips.lonely ? scene.cloud.toLocalReach(settings.maximumDistance) : Unbounded))
   , records_(
       scene, order_, texels_, settings.seed, listedFlags(order_, particles_), alone_, watched_)
-  , sweep_(order_, settings.background, localDistance(scene, settings), records_, skips, alone_)
+  , sweep_(order_, settings.background, scene.cloud.toLocalReach(settings.maximumDistance),
+      records_, skips, alone_)
 {
 }
 
@@ -165,6 +160,8 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
   const SweepTextures textures(records_, settings_.background);
   std::vector<float> values;
   std::vector<float> shares;
+  progress.begin(
+    particles_.size(), "Textures of " + std::to_string(particles_.size()) + " particles");
   for (std::size_t first = 0; first < particles_.size() && !progress.aborted(); first += chunk)
   {
     const std::size_t count = std::min(chunk, particles_.size() - first);
@@ -180,7 +177,7 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
     counters.texelsInside +=
       static_cast<std::uint64_t>(std::count(shares.begin(), shares.end(), 0.0f));
     sink({ first, count, values.data(), shares.data() });
-    progress.advance(0);
+    progress.advance(count);
   }
   const SweepCounters swept = sweep_.counters();
   counters.particles += particles_.size();

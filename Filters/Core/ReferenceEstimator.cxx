@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -50,15 +49,10 @@ std::string inMillions(double number)
 Plan makePlan(const BakeScene& scene, const BakeSettings& settings)
 {
   const auto side = static_cast<std::size_t>(settings.textureResolution);
-  Plan plan{ scene, settings, settings.textureResolution, side * side,
-    std::numeric_limits<float>::infinity(),
+  return { scene, settings, settings.textureResolution, side * side,
+    scene.cloud.toLocalReach(settings.maximumDistance),
     std::holds_alternative<UniformBackground>(settings.background),
     ReferenceRays(scene, settings) };
-  if (settings.maximumDistance > 0)
-  {
-    plan.rayLength = static_cast<float>(settings.maximumDistance / scene.cloud.scale);
-  }
-  return plan;
 }
 
 /// Adds up the background over the rays that nothing stops.

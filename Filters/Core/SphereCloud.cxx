@@ -228,6 +228,12 @@ RejectedParticles RejectedParticles::summed(const ProcessGroup& group) const
   return all;
 }
 
+float SphereCloud::toLocalReach(double maximumDistance) const
+{
+  return maximumDistance > 0 ? static_cast<float>(maximumDistance / scale)
+                             : std::numeric_limits<float>::infinity();
+}
+
 bool SphereCloud::inRange(Vec3d local)
 {
   return isFinite(local) && isWithin(local, 0);

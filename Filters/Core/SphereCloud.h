@@ -66,6 +66,10 @@ struct SphereCloud
     return { d.x / scale, d.y / scale, d.z / scale };
   }
   [[nodiscard]] Vec3d toWorld(Vec3d local) const { return origin + scale * local; }
+
+  /// A bound on distances as a local length: infinite where there is none.
+  /// @param maximumDistance in the world; 0 = unbounded
+  [[nodiscard]] float toLocalReach(double maximumDistance) const;
 };
 
 /// Particles as they come: functions of their index, below `count`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TexelExposure.h"
 
+#include "MaskedSums.h"
 #include "TexelCaps.h"
 
 #include <algorithm>
@@ -77,5 +78,16 @@ void exposeTexels(const SweepTexels& texels, const TexelPatterns& patterns,
     }
     clearCaps(patterns, g, rims.data(), rims.size(), result.bits.data() + g, groups);
   }
+}
+
+bool facingOutside(const FacingTexels& facing, const TexelExposure& exposure, std::size_t pattern,
+  std::vector<GroupMask>& mask)
+{
+  mask = facing.facing;
+  if (!exposure.bits.empty())
+  {
+    return intersect(mask.size(), exposure.ofPattern(pattern, mask.size()), mask.data());
+  }
+  return !facing.facingGroups.empty();
 }
 }

@@ -33,6 +33,13 @@ struct TexelExposure
 /// @param result is overwritten, and keeps its memory
 void exposeTexels(const SweepTexels& texels, const TexelPatterns& patterns,
   const std::vector<BuriedCap>& caps, TexelExposure& result);
+
+/// The texels whose points of a pattern face a direction and lie outside all other spheres.
+/// @param exposure empty where nothing overlaps the particle
+/// @param mask one for each group
+/// @return whether there are any
+bool facingOutside(const FacingTexels& facing, const TexelExposure& exposure, std::size_t pattern,
+  std::vector<GroupMask>& mask);
 }
 
 #endif

@@ -32,7 +32,9 @@ macro (particleocclusion_auto_start class)
 endmacro ()
 
 particleocclusion_auto_start(pqParticleActions)
-particleocclusion_auto_start(pqBakeAbort)
+if (ParaView_VERSION VERSION_LESS 5.12) # which has a button of its own that works
+  particleocclusion_auto_start(pqBakeAbort)
+endif ()
 
 set(gui_arguments
   UI_INTERFACES ${gui_interfaces}

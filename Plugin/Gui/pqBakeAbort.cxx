@@ -51,7 +51,7 @@ void pqBakeAbort::startup()
 
 void pqBakeAbort::shutdown()
 {
-  this->disconnect();
+  this->Manager.clear();
 }
 
 void pqBakeAbort::watch(pqPipelineSource* source)
@@ -68,7 +68,7 @@ void pqBakeAbort::watch(pqPipelineSource* source)
 
 void pqBakeAbort::listen(vtkObject* filter)
 {
-  if (this->Running)
+  if (this->Running || !this->Manager)
   {
     return; // the events that are being taken have come to a bake again
   }
@@ -98,7 +98,10 @@ void pqBakeAbort::abort()
 
 void pqBakeAbort::forget()
 {
-  this->Manager->setEnableAbort(false);
+  if (this->Manager)
+  {
+    this->Manager->setEnableAbort(false);
+  }
   if (this->Aborted)
   {
     filterOf(this->Aborted)->SetAbortExecute(0);     // or the next bake would end at once

@@ -15,7 +15,7 @@
 namespace
 {
 constexpr const char* Settings[] = { "TextureResolution", "SamplesPerTexel", "TargetError",
-  "Method", "Encoding", "Storage" };
+  "Method", "Encoding", "Storage", "BakeLight" };
 
 int chosen(vtkSMProxy* proxy, const char* name)
 {
@@ -59,6 +59,10 @@ void pqBakeEstimate::refresh()
   work.settings.textureResolution = chosen(this->proxy(), "TextureResolution");
   work.settings.samplesPerTexel = chosen(this->proxy(), "SamplesPerTexel");
   work.settings.encoding = static_cast<po::Encoding>(chosen(this->proxy(), "Encoding"));
+  if (chosen(this->proxy(), "BakeLight") != 0)
+  {
+    work.settings.light.emplace();
+  }
   work.settings.storage = static_cast<po::Storage>(chosen(this->proxy(), "Storage"));
   work.targetError = vtkSMUncheckedPropertyHelper(this->proxy(), "TargetError").GetAsDouble();
   this->Resources->UpdatePropertyInformation();

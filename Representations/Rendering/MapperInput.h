@@ -45,6 +45,8 @@ public:
 
   [[nodiscard]] const Source& source() const { return source_; }
   [[nodiscard]] const OcclusionTextures& textures() const { return baked_.textures; }
+  /// Is direct light in the textures?
+  [[nodiscard]] bool hasBakedLight() const { return baked_.hasLight; }
 
   /// Another number for other textures.
   [[nodiscard]] std::uint64_t texturesVersion() const { return texturesVersion_; }

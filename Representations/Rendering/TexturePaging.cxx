@@ -91,6 +91,11 @@ void TexturePaging::page(double budget, std::vector<std::string>& warnings)
   }
 }
 
+bool TexturePaging::hasBakedLight() const
+{
+  return file_ && file_->file().parameters().hasBakedLight();
+}
+
 void TexturePaging::forget()
 {
   *this = {};

@@ -38,6 +38,9 @@ public:
   /// Empty without a file that can be used.
   [[nodiscard]] const OcclusionTextures& textures() const { return textures_; }
 
+  /// Is direct light in the textures?
+  [[nodiscard]] bool hasBakedLight() const;
+
   /// Another number for other textures.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 

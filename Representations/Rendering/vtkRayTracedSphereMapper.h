@@ -79,10 +79,12 @@ public:
   ///@}
 
   ///@{
-  /// ShadingMode: what makes up the brightness of a pixel. Default BOTH.
-  /// OcclusionOnDiffuse: in mode BOTH occlusion scales the ambient term, and with this the diffuse
-  /// term too. Default on, since VTK's ambient coefficient is 0 by default.
-  /// Shadows: hard shadows of this mapper's spheres on each other, from each light. Default off.
+  /// ShadingMode: what makes up the brightness of a pixel. Default BOTH. Where direct light is
+  /// baked into the textures (vtkSphereAmbientOcclusion::BakeLight), it takes the place of the
+  /// renderer's lights in BOTH, so that it does not count twice. OcclusionOnDiffuse: in mode BOTH
+  /// occlusion scales the ambient term, and with this the diffuse term too. Default on, since VTK's
+  /// ambient coefficient is 0 by default. Shadows: hard shadows of this mapper's spheres on each
+  /// other, from each light. Default off.
   vtkSetClampMacro(ShadingMode, int, DIRECT_LIGHT, BOTH);
   vtkGetMacro(ShadingMode, int);
   vtkSetMacro(OcclusionOnDiffuse, bool);

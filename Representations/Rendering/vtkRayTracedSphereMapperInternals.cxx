@@ -35,6 +35,10 @@ po::Style vtkRayTracedSphereMapper::Internals::styleOf(
   style.lights = po::lightsOf(renderer);
   style.material = po::materialOf(actor->GetProperty(), !style.lights.empty());
   style.material.mode = static_cast<po::ShadingMode>(mapper->ShadingMode);
+  if (style.material.mode == po::ShadingMode::Both && this->hasBakedLight())
+  {
+    style.material.mode = po::ShadingMode::AmbientOcclusion; // light is not to count twice
+  }
   style.material.occlusionOnDiffuse = mapper->OcclusionOnDiffuse;
   style.material.translucent = actor->HasTranslucentPolygonalGeometry();
   style.material.particleColors = this->Colors.rgba();

@@ -50,6 +50,12 @@ struct vtkRayTracedSphereMapper::Internals
     return this->Paging.isOn() ? this->Paging.textures() : this->Input.textures();
   }
 
+  /// Is direct light in them?
+  [[nodiscard]] bool hasBakedLight() const
+  {
+    return this->Paging.isOn() ? this->Paging.hasBakedLight() : this->Input.hasBakedLight();
+  }
+
   /// Maps the scalars of the mapper's points.
   void updateColors(vtkRayTracedSphereMapper* mapper, vtkActor* actor);
 

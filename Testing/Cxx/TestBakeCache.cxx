@@ -262,6 +262,19 @@ TEST(BakeCache, WhateverChangesTheResultIsBakedAnew)
         f->SetBackground(Filter::Gradient);
         f->SetBackgroundUp(1, 0, 0);
       } },
+    { "BakeLight", [](Filter* f) { f->BakeLightOn(); } },
+    { "LightDirection",
+      [](Filter* f)
+      {
+        f->BakeLightOn();
+        f->SetLightDirection(0, 0, -1);
+      } },
+    { "LightIntensity",
+      [](Filter* f)
+      {
+        f->BakeLightOn();
+        f->SetLightIntensity(2);
+      } },
     { "DilateInside", [](Filter* f) { f->DilateInsideOff(); } },
     { "InsideThreshold", [](Filter* f) { f->SetInsideThreshold(0.1); } },
     { "Encoding", [](Filter* f) { f->SetEncoding(Filter::Float32Linear); } },

@@ -59,6 +59,25 @@ TEST(BakeCost, IsWithinAFactorOfThreeOfTheBenchmarks)
   }
 }
 
+TEST(BakeCost, ABakedLightIsWithinAFactorOfFiveOfWhatWasMeasured)
+{
+  struct Measured
+  {
+    std::size_t particles;
+    double seconds;
+  };
+  for (const Measured& set :
+    { Measured{ 30000, 1.02 }, { 30000, 1.3 }, { 30000, 17.9 }, { 25710, 4.0 }, { 3341, 0.23 } })
+  {
+    po::BakeWork work = workOf(set.particles, Filter::Sweep);
+    const double without = secondsOf(work);
+    work.settings.light.emplace();
+    const double ratio = (secondsOf(work) - without) / set.seconds;
+    EXPECT_GT(ratio, 1.0 / 5) << set.particles << " in " << set.seconds;
+    EXPECT_LT(ratio, 5) << set.particles << " in " << set.seconds;
+  }
+}
+
 TEST(BakeCost, GrowsWithTheWork)
 {
   for (const int method : { Filter::Sweep, Filter::Embree, Filter::Reference })

@@ -60,6 +60,17 @@ TEST_P(ParallelBake, SameBitsWithIds)
   EXPECT_EQ(differenceFromAlone(whole, interleaved, prepare).particles, 0);
 }
 
+TEST_P(ParallelBake, SameBitsWithALight)
+{
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetMethod(GetParam());
+    filter->SetSamplesPerTexel(4);
+    filter->BakeLightOn();
+  };
+  EXPECT_EQ(differenceFromAlone(mixedCloud(300), interleaved, prepare).particles, 0);
+}
+
 TEST_P(ParallelBake, SameWithATargetError)
 {
   const auto whole = mixedCloud(300);

@@ -22,6 +22,7 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
 {
   vtkNew<vtkSphereAmbientOcclusion> f;
   const double* up = f->GetBackgroundUp();
+  const double* light = f->GetLightDirection();
   const ParameterTable defaults{
     { "RadiusArray", { po::RadiusSettings::Automatic } }, // what no name asks for
     { "RadiusScale", { f->GetRadiusScale() } },
@@ -38,6 +39,9 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "BackgroundBottom", { f->GetBackgroundBottom() } },
     { "BackgroundTop", { f->GetBackgroundTop() } },
     { "BackgroundImage", { f->GetBackgroundImage() } },
+    { "BakeLight", { f->GetBakeLight() } },
+    { "LightDirection", { light[0], light[1], light[2] } },
+    { "LightIntensity", { f->GetLightIntensity() } },
     { "DilateInside", { f->GetDilateInside() } },
     { "InsideThreshold", { f->GetInsideThreshold() } },
     { "Encoding", { f->GetEncoding() } },
@@ -76,6 +80,12 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
   EXPECT_EQ(f->GetBackgroundBottom(), gradient.bottom);
   EXPECT_EQ(f->GetBackgroundTop(), gradient.top);
   EXPECT_EQ(f->GetBackgroundUp()[2], gradient.up.z);
+  EXPECT_EQ(f->GetBakeLight(), core.light.has_value());
+  const po::DistantLight light;
+  EXPECT_EQ(f->GetLightDirection()[0], light.direction.x);
+  EXPECT_EQ(f->GetLightDirection()[1], light.direction.y);
+  EXPECT_EQ(f->GetLightDirection()[2], light.direction.z);
+  EXPECT_EQ(f->GetLightIntensity(), light.intensity);
 }
 
 TEST(ParameterDefaults, OfTheTextureWriterAgreeWithItsXml)

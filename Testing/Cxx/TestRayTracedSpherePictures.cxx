@@ -226,4 +226,23 @@ TEST(RayTracedSphereMapper, OcclusionDarkensAndModesChoose)
   EXPECT_NEAR(center(), 127, 1);
   EXPECT_NEAR(layer(scene, "AO")->GetComponent(30 * 61 + 30, 0), 0.498, 1e-3);
 }
+
+TEST(RayTracedSphereMapper, BakedLightIsNotLitAgain)
+{
+  Scene scene({ { 0, 0, 0, 1 } }, 61, 61);
+  auto baked = makeBalls({ { 0, 0, 0, 1 } });
+  bakeConstant(baked, 180); // (180/255)^2 = 0.498
+  auto* parameters =
+    vtkStringArray::SafeDownCast(baked->GetFieldData()->GetAbstractArray(po::ParametersArray));
+  parameters->InsertNextValue("bakeLight=1");
+  scene.mapper->SetInputData(baked);
+  scene.mapper->ShadowsOn();
+  const auto at = [&](int x) { return grab(scene.window).at(x, 30)[0]; };
+  EXPECT_NEAR(at(30), 127, 1);
+  EXPECT_NEAR(at(18), 127, 1) << "the headlight would make it darker towards the rim";
+  EXPECT_EQ(scene.mapper->GetNumberOfShadowRays(), 0);
+  scene.mapper->SetShadingMode(vtkRayTracedSphereMapper::DIRECT_LIGHT);
+  EXPECT_GE(at(30), 254);
+  EXPECT_LT(at(18), 245);
+}
 }

@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Each a parameter of its own, in any order and number.
   while (bytes.remaining_bytes() > 0)
   {
-    switch (bytes.ConsumeIntegralInRange<int>(0, 15))
+    switch (bytes.ConsumeIntegralInRange<int>(0, 18))
     {
       case 0:
         filter->SetTextureResolution(anyInteger(bytes));
@@ -93,6 +93,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 14:
         filter->SetRadiusScale(anyNumber(bytes));
+        break;
+      case 15:
+        filter->SetBakeLight(bytes.ConsumeBool());
+        break;
+      case 16:
+      {
+        const double x = anyNumber(bytes), y = anyNumber(bytes), z = anyNumber(bytes);
+        filter->SetLightDirection(x, y, z);
+        break;
+      }
+      case 17:
+        filter->SetLightIntensity(anyNumber(bytes));
         break;
       default:
         filter->SetConstantRadius(anyNumber(bytes));

@@ -161,6 +161,7 @@ CACHE = tempfile.TemporaryDirectory()
 FILTER = dict(RadiusFrom="Diameter", RadiusArray="radius", Density=2.0, RadiusScale=0.9, ConstantRadius=0.4,
               TextureResolution=5, SamplesPerTexel=20, TargetError=0.2, Method="Embree", MaximumDistance=3.0, Background="Gradient",
               BackgroundUp=[0.0, 1.0, 0.5], BackgroundBottom=0.25, BackgroundTop=1.5,
+              BakeLight=1, LightDirection=[0.0, -1.0, -0.5], LightIntensity=0.5,
               BackgroundImage="sky.exr", DilateInside=0, InsideThreshold=0.1, Encoding="Float32Linear",
               Storage="Variable Size", StorageError=0.02, Seed=7,
               IdArray="radius", UseCache=1, CacheDirectory=CACHE.name, CacheSizeLimit=100)

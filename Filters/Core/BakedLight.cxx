@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "BakedLight.h"
+
+#include "MaskedSums.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace po
+{
+namespace
+{
+/// The direction towards the light, looked along from each point of the texels in turn.
+std::vector<SharedDirection> towards(
+  const DistantLight& light, const SweepTexels& texels, const TexelPatterns& patterns)
+{
+  const Vec3d direction = -normalized(light.direction);
+  std::vector<SharedDirection> directions;
+  for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
+  {
+    directions.emplace_back(texels, patterns, pattern, direction, 1.0);
+  }
+  return directions;
+}
+}
+
+BakedLight::BakedLight(
+  const BakeScene& scene, const std::vector<unsigned>& particles, const BakeSettings& settings)
+  : scene_(scene)
+  , particles_(particles)
+  , intensity_(static_cast<float>(settings.light->intensity))
+  , distance_(scene.cloud.toLocalReach(settings.maximumDistance))
+  , texels_(settings.textureResolution)
+  , patterns_(texels_, settings.seed, 0)
+  , directions_(towards(*settings.light, texels_, patterns_))
+  , formula_(texels_, patterns_, UniformBackground{})
+  , workspaces_([this] { return makeWorkspace(); })
+{
+}
+
+BakedLight::Workspace BakedLight::makeWorkspace() const
+{
+  const std::vector<float> slots(texels_.slots());
+  const std::vector<float> texels(formula_.texels());
+  return { ParticleView(scene_, distance_, RayShare::One), {}, TexelExposure(), {}, slots, slots,
+    texels, texels };
+}
+
+RawTextures BakedLight::addTo(const RawTextures& textures, Progress& progress)
+{
+  const std::size_t texels = formula_.texels();
+  values_.resize(textures.count * texels);
+  shares_.resize(values_.size());
+  tbb::parallel_for(std::size_t(0), textures.count,
+    [&](std::size_t i)
+    {
+      if (!progress.advance(0))
+      {
+        return;
+      }
+      Workspace& work = workspaces_.local();
+      look(particles_[textures.firstParticle + i], work);
+      for (std::size_t texel = 0; texel < texels; ++texel)
+      {
+        const std::size_t place = i * texels + texel;
+        const float both = textures.values[place] + intensity_ * work.light[texel];
+        values_[place] = both / (1 + intensity_);
+        shares_[place] = work.shares[texel];
+      }
+    });
+  return { textures.firstParticle, textures.count, values_.data(), shares_.data() };
+}
+
+/// Fills D and the outside share of each texel of a particle.
+void BakedLight::look(unsigned id, Workspace& work) const
+{
+  scene_.overlaps.find(id, work.overlaps);
+  if (work.overlaps.buried)
+  {
+    formula_.fill(0, 0, work.light.data(), work.shares.data());
+    return;
+  }
+  work.exposure.bits.clear();
+  OutsideSurface outside = formula_.whole();
+  if (!work.overlaps.caps.empty())
+  {
+    exposeTexels(texels_, patterns_, work.overlaps.caps, work.exposure);
+    outside = formula_.cut(work.exposure);
+  }
+  std::fill(work.sums.begin(), work.sums.end(), 0.0f);
+  Random unused(0, 0, 0); // each point has a ray of its own, so that nothing is drawn
+  work.view.begin(id);
+  for (const SharedDirection& direction : directions_)
+  {
+    if (facingOutside(direction.facing, work.exposure, direction.pattern, work.mask))
+    {
+      work.view.hide(direction, unused, work.mask.data());
+      addMasked(texels_.groups(), work.mask.data(), direction.weight.data(), work.sums.data());
+    }
+  }
+  // Every point counts, those that face away too.
+  std::transform(outside.shares.begin(), outside.shares.end(), work.weights.begin(),
+    [](float share) { return TexelPatterns::Count * share; });
+  formula_.fill(
+    outside, work.sums.data(), work.weights.data(), work.light.data(), work.shares.data());
+}
+
+std::uint64_t BakedLight::rays() const
+{
+  std::uint64_t sum = 0;
+  for (const Workspace& work : workspaces_)
+  {
+    sum += work.view.rays();
+  }
+  return sum;
+}
+}
