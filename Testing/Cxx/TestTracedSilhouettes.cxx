@@ -125,6 +125,17 @@ TEST(TracedSilhouettes, NarrowWindowsHaveTheLinesOfTheFilter)
   }
 }
 
+TEST(TracedSilhouettes, ABackgroundBeforeTheSpheresHasNoRim)
+{
+  const Traced traced(heap(), lookAtOrigin(true, 50, 12, 120, 90, 1, 200));
+  SilhouetteParameters parameters = threshold(3, 4);
+  const std::size_t lines = count(traced.lines(parameters).strength);
+  parameters.backgroundDepth = 1;
+  const std::size_t fewer = count(traced.lines(parameters).strength);
+  EXPECT_GT(fewer, 0U); // between spheres
+  EXPECT_LT(fewer, lines);
+}
+
 TEST(TracedSilhouettes, TileRangesAreThoseOfTheirPixels)
 {
   const Traced traced(heap(), lookAtOrigin(true, 50, 12, 301, 215, 1, 200));
