@@ -3,6 +3,7 @@
 
 #include "BakeParameters.h"
 #include "BakedData.h"
+#include "CropSettings.h"
 #include "OccluderInput.h"
 #include "ParticleIds.h"
 #include "SharedSpheres.h"
@@ -29,6 +30,62 @@ void readParticles(BakeInput& input, const RadiusSettings& radii,
   }
   input.own = std::move(particles->cloud);
   input.radiusUsed = describe(radii, particles->radii);
+}
+
+/// Takes the spheres that are hidden out of a cloud.
+void removeHidden(SphereCloud& cloud, const std::vector<std::uint8_t>& hidden)
+{
+  const auto keep = [&](auto& list)
+  {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+    {
+      if (hidden[i] == 0)
+      {
+        list[kept++] = list[i];
+      }
+    }
+    list.resize(kept);
+  };
+  keep(cloud.spheres);
+  keep(cloud.centers);
+  keep(cloud.sourceIds);
+  keep(cloud.ghosts);
+}
+
+/// Leaves out what the user crops. The frame of the cloud stays that of all particles.
+/// @return how many particles of all processes these are, ghosts aside
+std::uint64_t cropParticles(SphereCloud& own, const CropSettings& settings,
+  const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
+{
+  std::string warning;
+  Cropping cropping;
+  cropping.ranges = valueRangesOf(blocks, rangesOf(settings), warning);
+  if (!warning.empty())
+  {
+    throw std::invalid_argument("CropArray: " + warning);
+  }
+  for (const CropPlane& plane : planesOf(settings))
+  {
+    cropping.halfSpaces.push_back({ plane.normal, -dot(plane.normal, plane.origin) });
+  }
+  if (cropping.empty())
+  {
+    return 0;
+  }
+  const std::vector<std::uint8_t> hidden = hideSpheres(own, cropping);
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < hidden.size(); ++i)
+  {
+    count += hidden[i] != 0 && (own.ghosts.empty() || own.ghosts[i] == 0);
+  }
+  removeHidden(own, hidden);
+  if (group.sum(std::uint64_t(own.spheres.size())) == 0)
+  {
+    throw std::invalid_argument("The crop leaves no particle to bake: choose other values of "
+                                "CropRange, CropPlane or CropBox.");
+  }
+  return group.sum(count);
 }
 
 /// Numbers of the particles in the order of the task's cloud, any for those of other processes;
@@ -79,8 +136,9 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
   const std::vector<std::uint64_t> idOfPoint = readIds(blocks, idArrayOf(filter), group);
   OccluderInput others = readOccluders(occluders, radiiOf(filter), input.own, group);
 
+  const std::uint64_t cropped = cropParticles(input.own, cropOf(filter), blocks, group);
   const RejectedParticles rejected = input.own.rejected.summed(group);
-  input.report.leftOut = rejected.total();
+  input.report.leftOut = rejected.total() + cropped;
   input.report.occluderSpheres = group.sum(std::uint64_t(others.occluders.spheres.size()));
   input.report.occluderTriangles = group.sum(std::uint64_t(others.occluders.mesh.triangles.size()));
   if (group.rank() == 0)

@@ -132,6 +132,29 @@ void describeBackground(vtkSphereAmbientOcclusion& filter, OcclusionParameters& 
   }
 }
 
+/// Only what is in use.
+void describeCrop(vtkSphereAmbientOcclusion& filter, OcclusionParameters& parameters)
+{
+  const CropSettings crop = cropOf(filter);
+  if (!crop.range.array.empty())
+  {
+    parameters.set("cropArray", crop.range.array);
+    parameters.set("cropComponent", crop.range.component);
+    parameters.set("cropLow", crop.range.low);
+    parameters.set("cropHigh", crop.range.high);
+  }
+  if (crop.plane)
+  {
+    parameters.set("cropPlaneOrigin", textOf(filter.GetCropPlaneOrigin()));
+    parameters.set("cropPlaneNormal", textOf(filter.GetCropPlaneNormal()));
+  }
+  if (crop.box)
+  {
+    parameters.set("cropBoxOrigin", textOf(filter.GetCropBoxOrigin()));
+    parameters.set("cropBoxSize", textOf(filter.GetCropBoxSize()));
+  }
+}
+
 /// Only of a bake that has one: others are described as they were before there were lights.
 void describeLight(vtkSphereAmbientOcclusion& filter, OcclusionParameters& parameters)
 {
@@ -193,6 +216,23 @@ RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter)
     static_cast<RadiusSource>(filter.GetRadiusFrom()), filter.GetDensity() };
 }
 
+CropSettings cropOf(vtkSphereAmbientOcclusion& filter)
+{
+  const auto vector = [](const double* v) { return Vec3d{ v[0], v[1], v[2] }; };
+  const std::string array = textOf(filter.GetCropArray());
+  CropSettings crop;
+  crop.range = { array == RadiusSettings::NoArray ? "" : array, filter.GetCropComponent(),
+    filter.GetCropRange()[0], filter.GetCropRange()[1] };
+  crop.plane = filter.GetCropPlane();
+  crop.planeOrigin = vector(filter.GetCropPlaneOrigin());
+  crop.planeNormal = crop.plane ? directionOf("CropPlaneNormal", filter.GetCropPlaneNormal())
+                                : vector(filter.GetCropPlaneNormal());
+  crop.box = filter.GetCropBox();
+  crop.boxOrigin = vector(filter.GetCropBoxOrigin());
+  crop.boxSize = vector(filter.GetCropBoxSize());
+  return crop;
+}
+
 std::string idArrayOf(vtkSphereAmbientOcclusion& filter)
 {
   return textOf(filter.GetIdArray());
@@ -236,6 +276,7 @@ OcclusionParameters describeBake(
   parameters.set("density", filter.GetDensity());
   describeBackground(filter, parameters);
   describeLight(filter, parameters);
+  describeCrop(filter, parameters);
   parameters.set("targetError", filter.GetTargetError());
   parameters.set("estimatedError", report.estimatedError);
   parameters.set("directions", report.directions);

@@ -7,6 +7,7 @@
 #include "BakeCache.h"
 #include "BakeMethods.h"
 #include "BakeSettings.h"
+#include "CropSettings.h"
 #include "OcclusionParameters.h"
 #include "SphereInput.h"
 
@@ -19,6 +20,9 @@ namespace po
 [[nodiscard]] BakeSettings settingsOf(vtkSphereAmbientOcclusion& filter);
 
 [[nodiscard]] RadiusSettings radiiOf(vtkSphereAmbientOcclusion& filter);
+
+/// Throws std::invalid_argument if the plane has no normal.
+[[nodiscard]] CropSettings cropOf(vtkSphereAmbientOcclusion& filter);
 
 [[nodiscard]] std::string idArrayOf(vtkSphereAmbientOcclusion& filter);
 

@@ -116,6 +116,7 @@ vtkSphereAmbientOcclusion::~vtkSphereAmbientOcclusion()
 {
   this->SetRadiusArray(nullptr);
   this->SetIdArray(nullptr);
+  this->SetCropArray(nullptr);
   this->SetBackgroundImage(nullptr);
   this->SetCacheDirectory(nullptr);
 }
@@ -199,6 +200,9 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "Method: " << this->Method << "\n"
      << indent << "MaximumDistance: " << this->MaximumDistance << "\n"
      << indent << "Background: " << this->Background << "\n"
+     << indent << "CropArray: " << (this->CropArray ? this->CropArray : "(none)") << "\n"
+     << indent << "CropPlane: " << this->CropPlane << "\n"
+     << indent << "CropBox: " << this->CropBox << "\n"
      << indent << "BakeLight: " << this->BakeLight << "\n"
      << indent << "LightDirection: " << this->LightDirection[0] << " " << this->LightDirection[1]
      << " " << this->LightDirection[2] << "\n"

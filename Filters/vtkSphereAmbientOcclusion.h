@@ -215,6 +215,37 @@ public:
 
   ///@{
   /**
+   * Bake as if only some particles were there, as the crop of vtkRayTracedSphereRepresentation does
+   * it: those within CropRange, from low to high, of a point array (CropArray; empty [default] or
+   * "(none)": of none; CropComponent -1, the default, is the magnitude of vectors), with CropPlane
+   * those whose centres lie in front of a plane, with CropBox those whose centres lie in a box
+   * along the axes. The others neither occlude nor get a texture: row -1, visibility 0. They stay
+   * in the output, and count as left out, without a warning. Occluders are not cropped.
+   */
+  vtkSetStringMacro(CropArray);
+  vtkGetStringMacro(CropArray);
+  vtkSetMacro(CropComponent, int);
+  vtkGetMacro(CropComponent, int);
+  vtkSetVector2Macro(CropRange, double);
+  vtkGetVector2Macro(CropRange, double);
+  vtkSetMacro(CropPlane, bool);
+  vtkGetMacro(CropPlane, bool);
+  vtkBooleanMacro(CropPlane, bool);
+  vtkSetVector3Macro(CropPlaneOrigin, double);
+  vtkGetVector3Macro(CropPlaneOrigin, double);
+  vtkSetVector3Macro(CropPlaneNormal, double);
+  vtkGetVector3Macro(CropPlaneNormal, double);
+  vtkSetMacro(CropBox, bool);
+  vtkGetMacro(CropBox, bool);
+  vtkBooleanMacro(CropBox, bool);
+  vtkSetVector3Macro(CropBoxOrigin, double);
+  vtkGetVector3Macro(CropBoxOrigin, double);
+  vtkSetVector3Macro(CropBoxSize, double);
+  vtkGetVector3Macro(CropBoxSize, double);
+  ///@}
+
+  ///@{
+  /**
    * Bake a distant light too, with hard shadows [off]. A texel is then (A + I D) / (1 + I): A its
    * value without, I the LightIntensity, and D the mean of V(x, l) max(0, n.l) over the part of its
    * area that is outside all other spheres, with l the direction towards the light.
@@ -351,7 +382,7 @@ public:
   vtkIdType GetNumberOfTexelsInside();     ///< wholly inside another particle: not sampled
   vtkIdType GetNumberOfParticlesBuried();  ///< inside one other particle: not looked at
   vtkIdType GetNumberOfParticlesDark();    ///< no light reaches them
-  vtkIdType GetNumberOfParticlesLeftOut(); ///< no usable position or radius
+  vtkIdType GetNumberOfParticlesLeftOut(); ///< no usable position or radius, or cropped
   vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
   vtkIdType GetNumberOfTextureBytes();     ///< size of the table
   vtkIdType GetNumberOfParticlesRefined(); ///< by rays: of Sweep with TargetError
@@ -402,6 +433,15 @@ private:
   double BackgroundBottom = 0.0;
   double BackgroundTop = 1.0;
   char* BackgroundImage = nullptr;
+  char* CropArray = nullptr;
+  int CropComponent = -1;
+  double CropRange[2] = { -1e300, 1e300 };
+  bool CropPlane = false;
+  double CropPlaneOrigin[3] = { 0, 0, 0 };
+  double CropPlaneNormal[3] = { 0, 0, 1 };
+  bool CropBox = false;
+  double CropBoxOrigin[3] = { 0, 0, 0 };
+  double CropBoxSize[3] = { 1, 1, 1 };
   bool BakeLight = false;
   double LightDirection[3] = { 1, -1, -1 };
   double LightIntensity = 1.0;

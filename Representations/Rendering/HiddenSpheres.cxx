@@ -35,7 +35,7 @@ std::string HiddenSpheres::update(
   }
   source_ = source;
   std::string warning;
-  const Cropping cropping{ rules.halfSpaces, valueRangesOf(points, rules.ranges, warning) };
+  const Cropping cropping{ rules.halfSpaces, valueRangesOf({ &points }, rules.ranges, warning) };
   const SphereCloud& cloud = renderer.cloud();
   std::vector<std::uint8_t> hidden = hideSpheres(cloud, cropping);
   hideInvisible(cloud.sourceIds, blockTableOf(points), rules.styles,

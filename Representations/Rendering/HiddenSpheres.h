@@ -2,6 +2,7 @@
 #ifndef po_HiddenSpheres_h
 #define po_HiddenSpheres_h
 
+#include "CropSettings.h"
 #include "MapperInput.h"
 #include "ParticleFilter.h"
 #include "PointColors.h"

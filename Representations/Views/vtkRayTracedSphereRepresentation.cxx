@@ -3,9 +3,9 @@
 
 #include "BlockLooks.h"
 #include "ControllerGroup.h"
-#include "CropSettings.h"
 #include "GatheredParticles.h"
 #include "LayersFile.h"
+#include "MapperCropping.h"
 #include "ParticleDelivery.h"
 #include "RadiusChoice.h"
 #include "Refinement.h"
@@ -180,7 +180,7 @@ void vtkRayTracedSphereRepresentation::PrepareFrame(vtkInformation* inInfo)
   this->Internal->Blocks.update(*this->Mapper);
   if (this->Internal->Crop.isNew())
   {
-    this->Internal->Crop.use().apply(*this->Mapper);
+    po::crop(*this->Mapper, this->Internal->Crop.use());
   }
   this->Internal->Refinement.prepare(vtkPVRenderView::SafeDownCast(this->GetView()));
   warning = po::updateVisibility(*this->Silhouettes, *this->Actor);

@@ -262,6 +262,12 @@ TEST(BakeCache, WhateverChangesTheResultIsBakedAnew)
         f->SetBackground(Filter::Gradient);
         f->SetBackgroundUp(1, 0, 0);
       } },
+    { "CropPlane",
+      [](Filter* f)
+      {
+        f->CropPlaneOn();
+        f->SetCropPlaneOrigin(0, 0, 5);
+      } },
     { "BakeLight", [](Filter* f) { f->BakeLightOn(); } },
     { "LightDirection",
       [](Filter* f)

@@ -71,6 +71,18 @@ TEST_P(ParallelBake, SameBitsWithALight)
   EXPECT_EQ(differenceFromAlone(mixedCloud(300), interleaved, prepare).particles, 0);
 }
 
+TEST_P(ParallelBake, SameBitsOfACroppedSet)
+{
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetMethod(GetParam());
+    filter->SetSamplesPerTexel(4);
+    filter->SetCropArray("radius");
+    filter->SetCropRange(0.2, 0.5);
+  };
+  EXPECT_EQ(differenceFromAlone(mixedCloud(400), interleaved, prepare).particles, 0);
+}
+
 TEST_P(ParallelBake, SameWithATargetError)
 {
   const auto whole = mixedCloud(300);

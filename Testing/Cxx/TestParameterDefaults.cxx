@@ -3,6 +3,7 @@
 /// plain structs of the core.
 
 #include "BakeSettings.h"
+#include "CropSettings.h"
 #include "ParameterTable.h"
 #include "SilhouetteParametersOf.h"
 #include "SphereInput.h"
@@ -18,11 +19,14 @@
 
 namespace
 {
+ParameterValue vector(const double* v)
+{
+  return { v[0], v[1], v[2] };
+}
+
 TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
 {
   vtkNew<vtkSphereAmbientOcclusion> f;
-  const double* up = f->GetBackgroundUp();
-  const double* light = f->GetLightDirection();
   const ParameterTable defaults{
     { "RadiusArray", { po::RadiusSettings::Automatic } }, // what no name asks for
     { "RadiusScale", { f->GetRadiusScale() } },
@@ -35,12 +39,21 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "Method", { f->GetMethod() } },
     { "MaximumDistance", { f->GetMaximumDistance() } },
     { "Background", { f->GetBackground() } },
-    { "BackgroundUp", { up[0], up[1], up[2] } },
+    { "BackgroundUp", vector(f->GetBackgroundUp()) },
     { "BackgroundBottom", { f->GetBackgroundBottom() } },
     { "BackgroundTop", { f->GetBackgroundTop() } },
     { "BackgroundImage", { f->GetBackgroundImage() } },
+    { "CropArray", { po::RadiusSettings::NoArray } }, // what no name asks for
+    { "CropComponent", { f->GetCropComponent() } },
+    { "CropRange", { f->GetCropRange()[0], f->GetCropRange()[1] } },
+    { "CropPlane", { f->GetCropPlane() } },
+    { "CropPlaneOrigin", vector(f->GetCropPlaneOrigin()) },
+    { "CropPlaneNormal", vector(f->GetCropPlaneNormal()) },
+    { "CropBox", { f->GetCropBox() } },
+    { "CropBoxOrigin", vector(f->GetCropBoxOrigin()) },
+    { "CropBoxSize", vector(f->GetCropBoxSize()) },
     { "BakeLight", { f->GetBakeLight() } },
-    { "LightDirection", { light[0], light[1], light[2] } },
+    { "LightDirection", vector(f->GetLightDirection()) },
     { "LightIntensity", { f->GetLightIntensity() } },
     { "DilateInside", { f->GetDilateInside() } },
     { "InsideThreshold", { f->GetInsideThreshold() } },
@@ -80,6 +93,15 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithTheCore)
   EXPECT_EQ(f->GetBackgroundBottom(), gradient.bottom);
   EXPECT_EQ(f->GetBackgroundTop(), gradient.top);
   EXPECT_EQ(f->GetBackgroundUp()[2], gradient.up.z);
+  const po::CropSettings crop;
+  EXPECT_EQ(f->GetCropArray(), nullptr);
+  EXPECT_EQ(f->GetCropComponent(), crop.range.component);
+  EXPECT_EQ(f->GetCropRange()[0], crop.range.low);
+  EXPECT_EQ(f->GetCropRange()[1], crop.range.high);
+  EXPECT_EQ(f->GetCropPlane(), crop.plane);
+  EXPECT_EQ(f->GetCropPlaneNormal()[2], crop.planeNormal.z);
+  EXPECT_EQ(f->GetCropBox(), crop.box);
+  EXPECT_EQ(f->GetCropBoxSize()[0], crop.boxSize.x);
   EXPECT_EQ(f->GetBakeLight(), core.light.has_value());
   const po::DistantLight light;
   EXPECT_EQ(f->GetLightDirection()[0], light.direction.x);
