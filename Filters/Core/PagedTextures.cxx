@@ -18,8 +18,8 @@ PagedTextures::PagedTextures(std::shared_ptr<const TextureSource> source, std::s
 
 void PagedTextures::beginView()
 {
-  collect();
   releaseLoading(loader_.cancel());
+  collect(); // nothing of the last view arrives after it
   ++view_;
 }
 
