@@ -5,6 +5,7 @@
 #include "SilhouetteTiles.h"
 
 #include <cmath>
+#include <utility>
 
 namespace po
 {
@@ -139,6 +140,15 @@ private:
     }
   }
 
+  /// The line in one pixel.
+  struct PixelLine
+  {
+    float covered = 0;  ///< number of samples
+    float strength = 0; ///< sum over them
+    float farthest = 0; ///< depth in front of one of them
+    int front = -1;     ///< sample in front of one of them
+  };
+
   void writeStrength(int x, int y, int columns, int rows, SilhouetteImage& image) const
   {
     for (int j = 0; j < rows; ++j)
@@ -146,14 +156,109 @@ private:
       for (int i = 0; i < columns; ++i)
       {
         const std::size_t pixel = static_cast<std::size_t>(y + j) * image.width + x + i;
-        int front = -1;
-        image.strength[pixel] = strengthOf(i, j, front);
-        if (findFronts_ && front >= 0)
+        const PixelLine line = lineIn(i, j);
+        image.strength[pixel] = line.strength / static_cast<float>(rule_.samples * rule_.samples);
+        if (findFronts_ && line.front >= 0)
         {
-          image.front[pixel] = pixelOf(front, image);
+          writeFront(i, j, line, pixel, image);
         }
       }
     }
+  }
+
+  [[nodiscard]] PixelLine lineIn(int i, int j) const
+  {
+    PixelLine line;
+    forEachSample(i, j, 0, rule_.samples,
+      [&](std::size_t at)
+      {
+        const float nearest = cover_[at];
+        if (nearest < InfinityF)
+        {
+          const float jump = finder_.block().depth[at] - nearest;
+          line.strength += rule_.greyByJump ? rule_.ramp.at(jump) : 1;
+          line.covered += 1;
+          line.farthest = std::max(line.farthest, nearest);
+          line.front = findFronts_ ? fronts_[at] : -1;
+        }
+      });
+    return line;
+  }
+
+  /// Calls f for samples [first, end) x [first, end) of pixel (i, j) of the tile.
+  template <typename Function>
+  void forEachSample(int i, int j, int first, int end, const Function& f) const
+  {
+    const int margin = finder_.margin(), samples = rule_.samples;
+    for (int dj = first; dj < end; ++dj)
+    {
+      const int row = (margin + j) * samples + dj;
+      const int at = finder_.block().indexOf((margin + i) * samples, row);
+      for (int di = first; di < end; ++di)
+      {
+        f(static_cast<std::size_t>(at + di));
+      }
+    }
+  }
+
+  /// The pixel in front of a line, one of those around it that show it at their centre, and what it
+  /// covers of the pixel of the line where that shows what is behind.
+  void writeFront(
+    int i, int j, const PixelLine& line, std::size_t pixel, SilhouetteImage& image) const
+  {
+    image.front[pixel] = pixelOf(line.front, image);
+    if (rule_.samples == 1)
+    {
+      return;
+    }
+    image.inside[pixel] = 0;
+    const float behind = line.farthest + static_cast<float>(rule_.jump);
+    if (showsFront(i, j, behind))
+    {
+      image.front[pixel] = static_cast<std::int32_t>(pixel);
+      return;
+    }
+    const int front = pixelThatShows(i, j, behind, image);
+    if (front >= 0)
+    {
+      float uncovered = 0;
+      forEachSample(i, j, 0, rule_.samples,
+        [&](std::size_t at) { uncovered += isFront(at, behind) ? 1.0F : 0.0F; });
+      image.front[pixel] = front;
+      image.inside[pixel] = uncovered * line.strength /
+        (line.covered * static_cast<float>(rule_.samples * rule_.samples));
+    }
+  }
+
+  [[nodiscard]] bool isFront(std::size_t at, float behind) const
+  {
+    return cover_[at] == InfinityF && finder_.block().depth[at] <= behind;
+  }
+
+  /// Are all four samples about the centre of a pixel in front?
+  [[nodiscard]] bool showsFront(int i, int j, float behind) const
+  {
+    bool all = true;
+    const int middle = rule_.samples / 2;
+    forEachSample(
+      i, j, middle - 1, middle + 1, [&](std::size_t at) { all = all && isFront(at, behind); });
+    return all;
+  }
+
+  /// One of the pixels around one that shows what is in front; -1 if none does.
+  [[nodiscard]] int pixelThatShows(int i, int j, float behind, const SilhouetteImage& image) const
+  {
+    for (const auto& [di, dj] : { std::pair(-1, 0), { 1, 0 }, { 0, -1 }, { 0, 1 }, { -1, -1 },
+           { 1, -1 }, { -1, 1 }, { 1, 1 } })
+    {
+      if (showsFront(i + di, j + dj, behind))
+      {
+        const int sample = finder_.margin() * rule_.samples;
+        return finder_.block().pixelOf(sample + (i + di) * rule_.samples,
+          sample + (j + dj) * rule_.samples, image.width, image.height);
+      }
+    }
+    return -1;
   }
 
   [[nodiscard]] int pixelOf(int sample, const SilhouetteImage& image) const
@@ -161,29 +266,6 @@ private:
     const SampleBlock& block = finder_.block();
     return block.pixelOf(
       sample % block.stride(), sample / block.stride(), image.width, image.height);
-  }
-
-  /// Share of a pixel's samples that is covered, weighted by their grey.
-  float strengthOf(int i, int j, int& front) const
-  {
-    const SampleBlock& block = finder_.block();
-    const int stride = block.stride(), samples = rule_.samples;
-    const int first = ((finder_.margin() + j) * stride + finder_.margin() + i) * samples;
-    float sum = 0;
-    for (int dj = 0; dj < samples; ++dj)
-    {
-      for (int at = first + dj * stride; at < first + dj * stride + samples; ++at)
-      {
-        const float nearest = cover_[static_cast<std::size_t>(at)];
-        if (nearest < InfinityF)
-        {
-          const float jump = block.depth[static_cast<std::size_t>(at)] - nearest;
-          sum += rule_.greyByJump ? rule_.ramp.at(jump) : 1;
-          front = findFronts_ ? fronts_[static_cast<std::size_t>(at)] : -1;
-        }
-      }
-    }
-    return sum / static_cast<float>(samples * samples);
   }
 
   const DepthSource& source_;
@@ -284,7 +366,8 @@ void clearTile(SilhouetteImage& image, int tileX, int tileY)
 SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRule& rule,
   SilhouetteImage& image, const SilhouetteOptions& options)
 {
-  image.inside.clear();
+  const auto pixels = static_cast<std::size_t>(source.width()) * source.height();
+  image.inside.resize(options.findFronts && rule.samples > 1 ? pixels : 0);
   return paintTiles(
     source, rule, image, options, [&] { return SamplePainter(source, rule, options.findFronts); });
 }

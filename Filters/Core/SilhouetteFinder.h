@@ -37,8 +37,8 @@ struct SilhouetteImage
   /// Index of a pixel in front of the line, for each pixel that has one; empty unless asked for.
   std::vector<std::int32_t> front;
   /// Share of a pixel that what is in front of its line covers, where its centre shows what is
-  /// behind; weighted as the strength is, and valid where that is above 0. Empty unless asked for
-  /// and lines are drawn along rims.
+  /// behind; weighted as the strength is, and valid where that is above 0. Empty unless asked for,
+  /// and with one sample a pixel.
   std::vector<float> inside;
   std::vector<std::uint8_t> tileHasLines; ///< tiles of DepthTileSize pixels
 };

@@ -135,7 +135,12 @@ private:
     for (const SilhouetteEdge& edge : finder_.edges())
     {
       const int front = block.indexOf(edge.frontI, edge.frontJ);
-      Rim& rim = fronts_.find(depth_, spheres_[static_cast<std::size_t>(front)]);
+      const std::uint32_t sphere = spheres_[static_cast<std::size_t>(front)];
+      if (sphere == SphereScene::None)
+      {
+        continue; // a background that is placed before the spheres has no rim
+      }
+      Rim& rim = fronts_.find(depth_, sphere);
       const int i = edge.i - finder_.margin(), j = edge.j - finder_.margin();
       const auto at = static_cast<std::size_t>(RimTile::edgeIndexOf(i, j));
       tile_.rims[at] = rim.number;

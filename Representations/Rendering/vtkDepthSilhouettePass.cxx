@@ -262,8 +262,8 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
   const po::SilhouetteScale& scale = self.scale(
     ofSpheres ? *ofSpheres : po::SilhouetteScale{ 0, po::depthSpread(depth) }, !isTile(state));
   const bool placed = !self.Actors.empty();
-  po::findSilhouettes(
-    depth, po::resolve(parameters, scale), self.Lines, { this->Darken || placed, true });
+  po::findSilhouettes(depth, po::resolve(parameters, scale), self.Lines,
+    { this->Darken || placed || samples > 1, true });
   self.Margin = margin;
   self.FrontDepth = nullptr;
   if (placed)

@@ -269,6 +269,43 @@ TEST(DepthSilhouettePass, AntialiasedAgreesWithTheFilterToAGreyLevel)
   EXPECT_LT(different, lines / 100); // depth buffers of 24 and 32 bits may differ on an edge
 }
 
+/// A red mesh with black lines on white: between mesh and line, which covers what is beside the
+/// mesh, nothing is white.
+TEST(DepthSilhouettePass, BackgroundDoesNotShineThroughBetweenMeshAndLine)
+{
+  Scene scene;
+  scene.renderer->RemoveAllViewProps();
+  scene.renderer->SetBackground(1, 1, 1);
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetThetaResolution(96);
+  sphere->SetPhiResolution(96);
+  addProp(scene.renderer, sphere, 1);
+  vtkProperty* property = scene.renderer->GetActors()->GetLastActor()->GetProperty();
+  property->LightingOff();
+  property->SetColor(1, 0, 0);
+  scene.renderer->ResetCamera();
+  scene.pass->SetColor(0, 0, 0);
+  scene.pass->SetSamples(4);
+  scene.pass->SetLineWidth(3);
+  const auto rgb = pixels(scene.window, scene.renderer);
+  const auto isRed = [&rgb](int pixel)
+  {
+    const unsigned char* color = &rgb[3 * static_cast<std::size_t>(pixel)];
+    return color[0] == 255 && color[1] == 0;
+  };
+  int rims = 0;
+  for (int pixel = Width; pixel < Width * (Height - 1); ++pixel)
+  {
+    if (!isRed(pixel) &&
+      (isRed(pixel - 1) || isRed(pixel + 1) || isRed(pixel - Width) || isRed(pixel + Width)))
+    {
+      EXPECT_LE(rgb[3 * static_cast<std::size_t>(pixel) + 1], 2) << pixel;
+      ++rims;
+    }
+  }
+  EXPECT_GT(rims, 200);
+}
+
 TEST(DepthSilhouettePass, LinesOfChosenActorsAreHiddenByOthers)
 {
   Scene scene;

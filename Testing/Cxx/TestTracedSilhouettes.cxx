@@ -125,6 +125,17 @@ TEST(TracedSilhouettes, NarrowWindowsHaveTheLinesOfTheFilter)
   }
 }
 
+TEST(TracedSilhouettes, ABackgroundBeforeTheSpheresHasNoRim)
+{
+  const Traced traced(heap(), lookAtOrigin(true, 50, 12, 120, 90, 1, 200));
+  SilhouetteParameters parameters = threshold(3, 4);
+  const std::size_t lines = count(traced.lines(parameters).strength);
+  parameters.backgroundDepth = 1;
+  const std::size_t fewer = count(traced.lines(parameters).strength);
+  EXPECT_GT(fewer, 0U); // between spheres
+  EXPECT_LT(fewer, lines);
+}
+
 TEST(TracedSilhouettes, TileRangesAreThoseOfTheirPixels)
 {
   const Traced traced(heap(), lookAtOrigin(true, 50, 12, 301, 215, 1, 200));
@@ -237,22 +248,18 @@ TEST(TracedSilhouettes, WhatLiesWithinARimIsKnown)
   EXPECT_GT(rims, 30);
 }
 
-/// A dark line around a red sphere on white: as much white is left in the pixels along the rim as
-/// the line and the sphere leave.
-TEST(TracedSilhouettes, BackgroundDoesNotShineThroughBetweenSphereAndLine)
+namespace
 {
-  const Camera camera = lookAtOrigin(true, 30, 9, 120, 90, 1, 200);
-  const Traced traced({ { 0.3, -0.2, 0, 6 } }, camera);
-  const TracedFrame& frame = traced.renderer.frame();
+/// A red sphere on white, and the pixels of its black lines: no white is left where the line and
+/// the sphere cover all of a pixel.
+void expectNoWhiteAtRims(const TracedFrame& frame, const SilhouetteImage& lines)
+{
   std::vector<std::uint8_t> picture(4 * frame.pixels(), 255);
   for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
   {
     const bool isSphere = frame.sphere[pixel] != SphereScene::None;
     picture[4 * pixel + 1] = picture[4 * pixel + 2] = isSphere ? 0 : 255;
   }
-  SilhouetteParameters parameters = threshold(6, 4);
-  parameters.width = 1.5; // no pixel on a rim reaches beyond the line
-  const SilhouetteImage lines = traced.lines(parameters, { true, true });
   SilhouettePixels pixels;
   colorSilhouettes(lines, SilhouetteStyle(), { picture.data(), nullptr }, pixels);
   int rims = 0;
@@ -268,6 +275,28 @@ TEST(TracedSilhouettes, BackgroundDoesNotShineThroughBetweenSphereAndLine)
     }
   }
   EXPECT_GT(rims, 50);
+}
+}
+
+TEST(TracedSilhouettes, BackgroundDoesNotShineThroughBetweenSphereAndLine)
+{
+  const std::vector<std::array<double, 4>> sphere{ { 0.3, -0.2, 0, 6 } };
+  Camera camera = lookAtOrigin(true, 30, 9, 120, 90, 1, 200);
+  const Traced traced(sphere, camera);
+  SilhouetteParameters parameters = threshold(6, 4);
+  parameters.width = 1.5; // no pixel on a rim reaches beyond the line
+  expectNoWhiteAtRims(traced.renderer.frame(), traced.lines(parameters, { true, true }));
+  // Of a depth image likewise, as of meshes.
+  camera.width *= parameters.samples;
+  camera.height *= parameters.samples;
+  const Traced fine(sphere, camera);
+  const TracedFrame& samples = fine.renderer.frame();
+  const ImageDepth<double> source(
+    DepthImage<double>{ samples.t.data(), samples.width, samples.height }, parameters.samples);
+  SilhouetteImage lines;
+  findSilhouettes(
+    source, resolve(parameters, { fine.renderer.cloud().scale, 20 }), lines, { true, true });
+  expectNoWhiteAtRims(traced.renderer.frame(), lines);
 }
 
 /// Bigler 2004, figure 4.4: smaller thresholds give more lines, and never lose one; the absolute
