@@ -20,7 +20,7 @@ namespace
 constexpr double SweepVisit = 2.2e-7; ///< a particle in a direction
 constexpr double EmbreeTexel = 6e-9;  ///< a texel in a direction
 constexpr double ReferenceRay = 2.5e-7;
-constexpr double LightTexel = 5.6e-7; ///< of a baked light: 1.3e-7 (packings) to 2.3e-6 (gases)
+constexpr double LightParticle = 1.5e-5; ///< of a baked light, at 16 x 16 texels
 
 /// Of sets that are mostly buried to open ones, either way.
 constexpr double Spread = 3;
@@ -31,9 +31,11 @@ double resolutionFactor(int resolution)
   return std::pow(std::max(1.0, resolution / 16.0), 1.6);
 }
 
-double lightSeconds(const BakeWork& work, double texels)
+double lightSeconds(const BakeWork& work)
 {
-  return work.settings.light ? static_cast<double>(work.particles) * texels * LightTexel : 0;
+  return work.settings.light ? static_cast<double>(work.particles) * LightParticle *
+      resolutionFactor(work.settings.textureResolution)
+                             : 0;
 }
 
 double occlusionSeconds(const BakeWork& work, double texels)
@@ -122,7 +124,7 @@ BakeCost estimateCost(const BakeWork& work)
 {
   const double side = work.settings.textureResolution;
   const double texels = side * side;
-  const double seconds = occlusionSeconds(work, texels) + lightSeconds(work, texels);
+  const double seconds = occlusionSeconds(work, texels) + lightSeconds(work);
   const Storage storage = work.settings.storage;
   return { work.targetError > 0 ? 0 : seconds, memoryOf(work), textureMemoryOf(work),
     storage == Storage::VariableSize || storage == Storage::Compressed };

@@ -34,9 +34,9 @@ struct BakeCost
 /// The time is a constant a particle and direction (Sweep, Embree) or a ray (Reference), the middle
 /// of what Testing/Benchmarks/README.md has for its sets on a server processor of 2023 with
 /// AVX-512; the sets themselves lie within a factor of 3 of it, since what is buried or dark is
-/// spared (a baked light: a factor of 5). Up to 16 x 16 texels a sweep takes the same time, beyond
-/// it grows with the 1.6th power of the resolution; the other methods go by the number of texels.
-/// Distances, occluders and the spread of radii (8 times the time at 1:10,000) are not looked at.
+/// spared. Up to 16 x 16 texels a sweep takes the same time, beyond it grows with the 1.6th power
+/// of the resolution; the other methods go by the number of texels. Distances, occluders and the
+/// spread of radii (8 times the time at 1:10,000) are not looked at.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT BakeCost estimateCost(const BakeWork& work);
 
 /// The estimate in words, for a machine with that many cores and so much free memory in bytes: in

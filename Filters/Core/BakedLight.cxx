@@ -11,11 +11,15 @@ namespace po
 {
 namespace
 {
-/// The direction towards the light, looked along from each point of the texels in turn.
-std::vector<SharedDirection> towards(
-  const DistantLight& light, const SweepTexels& texels, const TexelPatterns& patterns)
+Vec3d towards(const DistantLight& light)
 {
-  const Vec3d direction = -normalized(light.direction);
+  return -normalized(light.direction);
+}
+
+/// A direction, looked along from each point of the texels in turn.
+std::vector<SharedDirection> raysTowards(
+  Vec3d direction, const SweepTexels& texels, const TexelPatterns& patterns)
+{
   std::vector<SharedDirection> directions;
   for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
   {
@@ -25,18 +29,23 @@ std::vector<SharedDirection> towards(
 }
 }
 
-BakedLight::BakedLight(
-  const BakeScene& scene, const std::vector<unsigned>& particles, const BakeSettings& settings)
+BakedLight::BakedLight(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, Progress& progress)
   : scene_(scene)
   , particles_(particles)
   , intensity_(static_cast<float>(settings.light->intensity))
   , distance_(scene.cloud.toLocalReach(settings.maximumDistance))
   , texels_(settings.textureResolution)
   , patterns_(texels_, settings.seed, 0)
-  , directions_(towards(*settings.light, texels_, patterns_))
+  , directions_(raysTowards(towards(*settings.light), texels_, patterns_))
   , formula_(texels_, patterns_, UniformBackground{})
   , workspaces_([this] { return makeWorkspace(); })
 {
+  if (!scene.rays.hasMesh())
+  {
+    sweep_.emplace(
+      scene, particles, texels_, settings.seed, towards(*settings.light), distance_, progress);
+  }
 }
 
 BakedLight::Workspace BakedLight::makeWorkspace() const
@@ -88,7 +97,30 @@ void BakedLight::look(unsigned id, Workspace& work) const
     exposeTexels(texels_, patterns_, work.overlaps.caps, work.exposure);
     outside = formula_.cut(work.exposure);
   }
+  // Every point counts, those that face away too.
+  std::transform(outside.shares.begin(), outside.shares.end(), work.weights.begin(),
+    [](float share) { return TexelPatterns::Count * share; });
+  formula_.fill(
+    outside, sumsOf(id, work), work.weights.data(), work.light.data(), work.shares.data());
+}
+
+/// [slots] max(0, n.l), summed over the points of a texel that the light reaches.
+const float* BakedLight::sumsOf(unsigned id, Workspace& work) const
+{
+  if (const float* swept = sweep_ ? sweep_->sums(id) : nullptr)
+  {
+    return swept;
+  }
   std::fill(work.sums.begin(), work.sums.end(), 0.0f);
+  if (!sweep_)
+  {
+    trace(id, work);
+  }
+  return work.sums.data();
+}
+
+void BakedLight::trace(unsigned id, Workspace& work) const
+{
   Random unused(0, 0, 0); // each point has a ray of its own, so that nothing is drawn
   work.view.begin(id);
   for (const SharedDirection& direction : directions_)
@@ -99,11 +131,6 @@ void BakedLight::look(unsigned id, Workspace& work) const
       addMasked(texels_.groups(), work.mask.data(), direction.weight.data(), work.sums.data());
     }
   }
-  // Every point counts, those that face away too.
-  std::transform(outside.shares.begin(), outside.shares.end(), work.weights.begin(),
-    [](float share) { return TexelPatterns::Count * share; });
-  formula_.fill(
-    outside, work.sums.data(), work.weights.data(), work.light.data(), work.shares.data());
 }
 
 std::uint64_t BakedLight::rays() const

@@ -2,6 +2,7 @@
 #ifndef po_BakedLight_h
 #define po_BakedLight_h
 
+#include "LightSweep.h"
 #include "OcclusionEstimator.h"
 #include "ParticleView.h"
 #include "SharedDirections.h"
@@ -11,6 +12,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace po
@@ -24,16 +26,18 @@ namespace po
 /// that is open and faces the light is thus 1 under the uniform background whatever the intensity;
 /// what neither light reaches is exactly 0.
 ///
-/// D is a mean over 32 points of each texel. Each is tested along the one direction by itself, and
-/// exactly: against near spheres, by a ray against what is farther, and triangles. It does not
-/// depend on the estimator, and a particle gets the same bits whatever else is baked.
+/// D is a mean over 32 points of each texel, each tested along the one direction by itself, and
+/// exactly: by a sweep along the light or, where there are triangles, which a sweep does not see,
+/// against near spheres and by a ray against what is farther. It does not depend on the estimator,
+/// and a particle gets the same bits whatever else is baked.
 class BakedLight
 {
 public:
+  /// Sweeps, if it can; returns early when `progress` says so.
   /// @param particles whose textures are made, by their number in the scene
   /// @param settings with a light. All must outlive this.
-  BakedLight(
-    const BakeScene& scene, const std::vector<unsigned>& particles, const BakeSettings& settings);
+  BakedLight(const BakeScene& scene, const std::vector<unsigned>& particles,
+    const BakeSettings& settings, Progress& progress);
 
   /// The textures with the light in them, in parallel; good until the next call. Outside shares are
   /// found anew: where an estimator finds no light it need not look for them.
@@ -57,6 +61,8 @@ private:
 
   [[nodiscard]] Workspace makeWorkspace() const;
   void look(unsigned id, Workspace& work) const;
+  [[nodiscard]] const float* sumsOf(unsigned id, Workspace& work) const;
+  void trace(unsigned id, Workspace& work) const;
 
   const BakeScene& scene_;
   const std::vector<unsigned>& particles_;
@@ -66,6 +72,7 @@ private:
   TexelPatterns patterns_;
   std::vector<SharedDirection> directions_; ///< the one direction, for each point of the texels
   TextureFormula formula_;
+  std::optional<LightSweep> sweep_; ///< none where there are triangles
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   std::vector<float> values_, shares_; ///< of the last call
 };

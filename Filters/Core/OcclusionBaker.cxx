@@ -232,9 +232,10 @@ double bakeMemory(
   // The linear table stays until it is encoded, mostly at once (see TextureIntake) but not always;
   // the encoded one is copied into the data set.
   const double full = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
-  const double bytesPerTexel = settings.storage == Storage::OneValue ? 0 : full;
+  const double table = settings.storage == Storage::OneValue ? 0 : full;
+  const double light = settings.light ? LightSweep::BytesPerTexel : 0;
   return static_cast<double>(particles) *
-    (BytesPerSphere + texels * (bytesPerTexel + estimator.bytesPerTexel()));
+    (BytesPerSphere + texels * (table + light + estimator.bytesPerTexel()));
 }
 
 double occluderMemory(std::size_t spheres, std::size_t triangles)
@@ -261,7 +262,7 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
   std::optional<BakedLight> light;
   if (settings.light)
   {
-    light.emplace(scene, particles, settings);
+    light.emplace(scene, particles, settings, progress);
   }
   estimator.estimate(
     scene, particles, settings, progress,

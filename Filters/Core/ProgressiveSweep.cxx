@@ -19,17 +19,6 @@ namespace
 constexpr std::size_t WatchedParticles = 256;
 constexpr float Unbounded = std::numeric_limits<float>::infinity();
 
-std::vector<std::uint8_t> listedFlags(
-  const SweepScene& order, const std::vector<unsigned>& particles)
-{
-  std::vector<std::uint8_t> flags(order.size(), 0);
-  for (const unsigned particle : particles)
-  {
-    flags[order.indexOf(particle)] = 1;
-  }
-  return flags;
-}
-
 /// Up to 256 of the particles, drawn by the seed.
 void drawWatched(std::vector<unsigned>& particles, std::uint64_t seed)
 {
@@ -103,8 +92,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   , watched_(watchedSpheres(order_, particles_, settings.seed, watch))
   , alone_(aloneFlags(
       scene, order_, skips.lonely ? scene.cloud.toLocalReach(settings.maximumDistance) : Unbounded))
-  , records_(
-      scene, order_, texels_, settings.seed, listedFlags(order_, particles_), alone_, watched_)
+  , records_(scene, order_, texels_, settings.seed, order_.flagsOf(particles_), alone_, watched_)
   , sweep_(order_, settings.background, scene.cloud.toLocalReach(settings.maximumDistance),
       records_, skips, alone_)
 {

@@ -62,6 +62,7 @@ public:
 
   [[nodiscard]] const SphereSet& set() const { return set_; }
   [[nodiscard]] const std::vector<Sphere>& spheres() const { return set_.spheres(); }
+  [[nodiscard]] bool hasMesh() const { return hasMesh_; }
 
   /// Is anything hit between the origin and `distance`?
   ///

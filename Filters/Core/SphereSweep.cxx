@@ -38,12 +38,14 @@ bool equalRadii(const SweepScene::Band& band)
 }
 
 SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, float distance,
-  VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone)
+  VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone,
+  AxisWays ways)
   : scene_(scene)
   , background_(background)
   , distance_(distance)
   , records_(records)
   , skips_(skips)
+  , ways_(ways)
   , useOffsetMasks_(skips.offsetMasks && scene.bands().size() == 1 &&
       equalRadii(scene.bands().front()) && OffsetMasks::fits(records.texels()) &&
       !std::isfinite(distance))
@@ -142,6 +144,10 @@ SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool al
   AxisJob job{ axis, planeBasis(axis), nextPattern(), full, {} };
   for (const bool upward : { true, false })
   {
+    if (!upward && ways_ == AxisWays::Forward)
+    {
+      continue;
+    }
     const Vec3d towardsLight = upward ? axis : -axis;
     const double light = luminance(background_, towardsLight);
     if (light <= 0 && skips_.blackSky)

@@ -25,6 +25,13 @@ struct SweepSkips
   bool lonely = true;      ///< spheres outside the bounded distance of any other
 };
 
+/// Which of the two directions of an axis are swept.
+enum class AxisWays
+{
+  Both,
+  Forward ///< the one that the axis names: light comes from there
+};
+
 /// Sweeps a scene along given directions and sums what is seen in records.
 class SphereSweep
 {
@@ -32,10 +39,11 @@ public:
   /// @param distance light is blocked within it: local, infinite when unbounded
   /// @param alone flags by sphere: those that take no part
   SphereSweep(const SweepScene& scene, const Background& background, float distance,
-    VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone);
+    VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone,
+    AxisWays ways = AxisWays::Both);
 
-  /// Goes on with more axes: the directions along them and their opposites. Returns early when
-  /// `progress` says so. A unit of progress is one sphere in one direction.
+  /// Goes on with more axes: the directions along them and, swept or not, their opposites. Returns
+  /// early when `progress` says so. A unit of progress is one sphere in one direction.
   /// @param subset that they count for, of ErrorSubsets; by default the blocks take turns
   void run(const std::vector<Vec3d>& axes, Progress& progress,
     std::optional<std::size_t> subset = std::nullopt);
@@ -59,7 +67,7 @@ private:
     PlaneBasis basis;
     std::size_t pattern;                    ///< of the points in the texels, for both directions
     bool full;                              ///< all spheres take part
-    std::vector<SweptDirection> directions; ///< one if the background is black in the other
+    std::vector<SweptDirection> directions; ///< without those that are black or not wanted
   };
 
   /// Memory of an axis that is being swept.
@@ -102,6 +110,7 @@ private:
   float distance_;
   VisibilityRecords& records_;
   SweepSkips skips_;
+  AxisWays ways_;
   bool useOffsetMasks_;
   std::array<bool, 2> closedCellsPay_; ///< where only spheres ever seen take part, where all do
   std::vector<std::atomic<std::uint8_t>> everSeen_;

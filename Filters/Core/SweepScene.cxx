@@ -157,4 +157,14 @@ SweepScene::SweepScene(const SphereSet& set)
     band.largestRadius = std::max(band.largestRadius, s.radius);
   }
 }
+
+std::vector<std::uint8_t> SweepScene::flagsOf(const std::vector<unsigned>& sources) const
+{
+  std::vector<std::uint8_t> flags(size(), 0);
+  for (const unsigned source : sources)
+  {
+    flags[indexOf(source)] = 1;
+  }
+  return flags;
+}
 }

@@ -5,6 +5,7 @@
 #include "SphereSet.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace po
@@ -44,6 +45,9 @@ public:
   /// The place of a sphere in the set that this was made from, and back.
   [[nodiscard]] unsigned source(unsigned index) const { return source_[index]; }
   [[nodiscard]] unsigned indexOf(unsigned source) const { return indexOf_[source]; }
+
+  /// [size()] 1 for the spheres that are listed by their places in that set, 0 for others.
+  [[nodiscard]] std::vector<std::uint8_t> flagsOf(const std::vector<unsigned>& sources) const;
 
 private:
   const SphereSet& set_;
