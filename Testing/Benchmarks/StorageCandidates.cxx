@@ -3,6 +3,8 @@
 
 #include "ComponentPacker.h"
 #include "Gamma2.h"
+#include "HarmonicBasis.h"
+#include "LeaderSearch.h"
 #include "TexelMap.h"
 #include "TextureSample.h"
 
@@ -12,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -107,51 +108,23 @@ BytesOfBake byLeaders(const Baked& baked, const Leaders& leaders)
   return bytes;
 }
 
-double squareDifference(
-  const std::vector<float>& shares, const float* a, const float* b, double stopAt = 1e300)
-{
-  double sum = 0;
-  for (std::size_t i = 0; i < shares.size() && sum <= stopAt; ++i)
-  {
-    const double d = static_cast<double>(a[i] - b[i]);
-    sum += static_cast<double>(shares[i]) * d * d;
-  }
-  return sum;
-}
-
-/// Textures that differ by no more than is allowed are stored once. Candidates are those whose
-/// means are alike, which is necessary.
+/// Textures that differ by no more than is allowed are stored once.
 Candidate nearEqual(const Baked& baked, double allowed)
 {
-  const std::vector<float> shares = texelShares(baked.resolution);
+  constexpr std::size_t MostTried = 2000; // sharing was no more common with all
+  LeaderSearch search(texelShares(baked.resolution), allowed, MostTried);
   Leaders leaders;
-  std::map<long, std::vector<std::int32_t>> byMean;
-  constexpr std::size_t MostTried = 2000; // of each mean: sharing was no more common with all
   for (std::int32_t row = 0; row < baked.table.rows(); ++row)
   {
     const float* texture = textureOf(baked, static_cast<std::size_t>(row));
-    const double mean = std::inner_product(shares.begin(), shares.end(), texture, 0.0);
-    const long cell = std::lround(mean / allowed);
-    std::int32_t found = -1;
-    for (long near = cell - 1; near <= cell + 1 && found < 0; ++near)
+    std::int32_t leader = search.find(texture);
+    if (leader < 0)
     {
-      const std::vector<std::int32_t>& known = byMean[near];
-      const std::size_t first = known.size() > MostTried ? known.size() - MostTried : 0;
-      for (std::size_t i = first; i < known.size() && found < 0; ++i)
-      {
-        const std::size_t other = leaders.rows[static_cast<std::size_t>(known[i])];
-        const bool near = squareDifference(shares, texture, textureOf(baked, other),
-                            allowed * allowed) <= allowed * allowed;
-        found = near ? known[i] : -1;
-      }
-    }
-    if (found < 0)
-    {
-      found = static_cast<std::int32_t>(leaders.rows.size());
+      leader = static_cast<std::int32_t>(leaders.rows.size());
       leaders.rows.push_back(static_cast<std::size_t>(row));
-      byMean[cell].push_back(found);
+      search.add(leader, std::vector<float>(texture, texture + texelsOf(baked)));
     }
-    leaders.of.push_back(found);
+    leaders.of.push_back(leader);
   }
   BytesOfBake bytes = byLeaders(baked, leaders);
   const auto size = static_cast<double>(bytes.table.bytes.size());
@@ -272,15 +245,21 @@ struct Packed
   std::shared_ptr<const PackedTextures> textures;
 };
 
-/// @param size bytes of the table and its basis, or negative: as packed
-Candidate byPacker(
-  const Baked& baked, const std::string& name, const TexturePacker& packer, double size = -1)
+std::shared_ptr<Packed> packWith(const Baked& baked, const TexturePacker& packer)
 {
   auto packed = std::make_shared<Packed>();
   packed->rowOf = baked.rowOf;
   packed->table = packTable(copyOf(baked), packer, packed->rowOf);
   packed->textures = std::make_shared<PackedTextures>(
     packed->table.packed, packed->table.bytes.data(), static_cast<std::size_t>(packed->table.rows));
+  return packed;
+}
+
+/// @param size bytes of the table and its basis, or negative: as packed
+Candidate byPacker(
+  const Baked& baked, const std::string& name, const TexturePacker& packer, double size = -1)
+{
+  const std::shared_ptr<Packed> packed = packWith(baked, packer);
   Candidate candidate;
   candidate.name = name;
   candidate.bytes = (size < 0 ? static_cast<double>(packed->table.size()) : size) +
@@ -292,72 +271,14 @@ Candidate byPacker(
   return candidate;
 }
 
-/// The first leader whose decoded texture differs from a texture by no more than is allowed, among
-/// those of nearly the same mean, which is necessary.
-class LeaderSearch
-{
-public:
-  LeaderSearch(std::vector<float> shares, double allowed)
-    : shares_(std::move(shares))
-    , allowed_(allowed)
-  {
-  }
-
-  /// @return its word, or -1
-  [[nodiscard]] std::int32_t find(const float* texture) const
-  {
-    constexpr std::size_t MostTried = 500; // of each mean
-    for (long cell = cellOf(texture) - 1, last = cell + 2; cell <= last; ++cell)
-    {
-      const auto known = byMean_.find(cell);
-      const std::size_t count = known == byMean_.end() ? 0 : known->second.size();
-      for (std::size_t i = count > MostTried ? count - MostTried : 0; i < count; ++i)
-      {
-        const Leader& leader = known->second[i];
-        const double square = allowed_ * allowed_;
-        if (squareDifference(shares_, texture, leader.texture.data(), square) <= square)
-        {
-          return leader.word;
-        }
-      }
-    }
-    return -1;
-  }
-
-  void add(std::int32_t word, std::vector<float> decoded)
-  {
-    const long cell = cellOf(decoded.data());
-    byMean_[cell].push_back({ word, std::move(decoded) });
-  }
-
-private:
-  struct Leader
-  {
-    std::int32_t word;
-    std::vector<float> texture;
-  };
-
-  [[nodiscard]] long cellOf(const float* texture) const
-  {
-    return std::lround(std::inner_product(shares_.begin(), shares_.end(), texture, 0.0) / allowed_);
-  }
-
-  std::vector<float> shares_;
-  double allowed_;
-  std::map<long, std::vector<Leader>> byMean_;
-};
-
 /// Packed textures, in whose place one that is there already is taken where it differs by no more
 /// than is allowed.
 Candidate packedNearEqual(
   const Baked& baked, const std::string& name, const TexturePacker& packer, double allowed)
 {
-  auto packed = std::make_shared<Packed>();
-  packed->rowOf = baked.rowOf;
-  packed->table = packTable(copyOf(baked), packer, packed->rowOf);
-  packed->textures = std::make_shared<PackedTextures>(
-    packed->table.packed, packed->table.bytes.data(), static_cast<std::size_t>(packed->table.rows));
-  LeaderSearch leaders(texelShares(baked.resolution), allowed);
+  const std::shared_ptr<Packed> packed = packWith(baked, packer);
+  constexpr std::size_t MostTried = 500;
+  LeaderSearch leaders(texelShares(baked.resolution), allowed, MostTried);
   std::map<std::int32_t, std::int32_t> wordOfRow;
   std::set<std::int32_t> kept;
   for (std::size_t particle = 0; particle < packed->rowOf.size(); ++particle)
@@ -455,67 +376,6 @@ TextureBasis firstComponents(TextureBasis basis, std::size_t count)
   return basis;
 }
 
-/// Real spherical harmonics of the first bands, each times the deviation of its coefficient.
-TextureBasis sphericalHarmonics(const Baked& baked, const std::vector<float>& sample, int bands)
-{
-  const std::size_t texels = texelsOf(baked);
-  const std::vector<float> shares = texelShares(baked.resolution);
-  std::vector<std::vector<double>> rows;
-  for (int l = 0; l < bands; ++l)
-  {
-    for (int m = -l; m <= l; ++m)
-    {
-      std::vector<double> row(texels);
-      double norm = 0;
-      for (std::size_t t = 0; t < texels; ++t)
-      {
-        const int side = baked.resolution;
-        const double polar = M_PI * (double(int(t) / side) + 0.5) / side;
-        const double azimuth = 2 * M_PI * (double(int(t) % side) + 0.5) / side;
-        const double legendre = std::assoc_legendre(
-          static_cast<unsigned>(l), static_cast<unsigned>(std::abs(m)), std::cos(polar));
-        row[t] = legendre * (m < 0 ? std::sin(-m * azimuth) : std::cos(m * azimuth));
-        norm += static_cast<double>(shares[t]) * row[t] * row[t];
-      }
-      double square = 0;
-      for (std::size_t i = 0; i < sample.size(); i += texels)
-      {
-        double c = 0;
-        for (std::size_t t = 0; t < texels; ++t)
-        {
-          c += static_cast<double>(shares[t] * sample[i + t]) * row[t] / std::sqrt(norm);
-        }
-        square += c * c;
-      }
-      const double deviation =
-        std::sqrt(square * static_cast<double>(texels) / static_cast<double>(sample.size()));
-      for (double& value : row)
-      {
-        value *= deviation / std::sqrt(norm);
-      }
-      rows.push_back(std::move(row));
-    }
-  }
-  TextureBasis basis;
-  basis.resolution = baked.resolution;
-  double largest = 0;
-  for (const auto& row : rows)
-  {
-    for (const double value : row)
-    {
-      largest = std::max(largest, std::abs(value));
-    }
-  }
-  basis.scale = largest / 32767;
-  basis.numbers.assign(texels, 0); // no mean: the first harmonic is one
-  for (const auto& row : rows)
-  {
-    std::transform(row.begin(), row.end(), std::back_inserter(basis.numbers),
-      [&](double value) { return static_cast<std::int16_t>(std::lround(value / basis.scale)); });
-  }
-  return basis;
-}
-
 Candidate oneValue(const Baked& baked)
 {
   Candidate candidate;
@@ -545,7 +405,7 @@ void addStudied(
   for (const int bands : { 3, 4 })
   {
     all.push_back(byCoefficients(baked, "spherical harmonics, " + std::to_string(bands * bands),
-      sphericalHarmonics(baked, sample.values, bands)));
+      sphericalHarmonics(resolution, sample.values, bands)));
   }
   const TextureBasis basis = principalComponents(resolution, sample.values, 64);
   for (const std::size_t count : { 4, 8, 12, 16 })
