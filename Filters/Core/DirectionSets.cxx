@@ -42,11 +42,12 @@ std::vector<std::vector<Vec3d>> DirectionSets::growing(int first, int total, std
 }
 
 DirectionSets::DirectionSets(const SweepTexels& texels, const Background& background,
-  std::uint64_t seed, std::vector<std::vector<Vec3d>> axes)
+  std::uint64_t seed, std::vector<std::vector<Vec3d>> axes, bool smooth)
   : texels_(texels)
   , background_(background)
   , seed_(seed)
   , axes_(std::move(axes))
+  , smooth_(smooth)
 {
 }
 
@@ -61,7 +62,9 @@ std::unique_ptr<DirectionSet> DirectionSets::make(std::size_t index) const
     texels_, background_, axes_[index], first, seed_, static_cast<std::uint32_t>(index));
   OpenSums open = index == 0 ? OpenSums(texels_.slots()) : last_->open;
   open.add(directions);
-  return std::make_unique<DirectionSet>(DirectionSet{ std::move(directions), std::move(open) });
+  const std::size_t all = first + 2 * axes_[index].size();
+  return std::make_unique<DirectionSet>(DirectionSet{ std::move(directions), std::move(open),
+    smooth_ ? TextureSmoothing(texels_, static_cast<int>(all)) : TextureSmoothing() });
 }
 
 const DirectionSet& DirectionSets::get(std::size_t index)

@@ -4,6 +4,7 @@
 
 #include "SharedDirections.h"
 #include "TexelSums.h"
+#include "TextureSmoothing.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,8 @@ namespace po
 struct DirectionSet
 {
   SharedDirections directions;
-  OpenSums open; ///< of all sets up to this one
+  OpenSums open;              ///< of all sets up to this one
+  TextureSmoothing smoothing; ///< of what they leave
 };
 
 /// The sets of directions along which all particles look, one after the other. The first ones are
@@ -32,8 +34,9 @@ public:
   static std::vector<std::vector<Vec3d>> growing(int first, int total, std::uint64_t seed);
 
   /// @param axes of each set. The first two arguments must outlive this.
+  /// @param smooth whether textures are smoothed
   DirectionSets(const SweepTexels& texels, const Background& background, std::uint64_t seed,
-    std::vector<std::vector<Vec3d>> axes);
+    std::vector<std::vector<Vec3d>> axes, bool smooth);
 
   [[nodiscard]] std::size_t size() const { return axes_.size(); }
 
@@ -47,6 +50,7 @@ private:
   const Background& background_;
   std::uint64_t seed_;
   std::vector<std::vector<Vec3d>> axes_;
+  bool smooth_;
   std::vector<std::unique_ptr<DirectionSet>> kept_;
   std::unique_ptr<DirectionSet> passing_; ///< the last one that is not kept
   const DirectionSet* last_ = nullptr;

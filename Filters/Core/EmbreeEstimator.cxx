@@ -107,7 +107,8 @@ public:
     , share_(chooseShare(options, settings))
     , progress_(progress)
     , texels_(settings.textureResolution)
-    , sets_(texels_, settings.background, settings.seed, chooseAxes(options, settings))
+    , sets_(
+        texels_, settings.background, settings.seed, chooseAxes(options, settings), options.smooth)
     , formula_(texels_, sets_.get(0).directions.patterns(), settings.background)
     , watched_(chooseWatched(particles.size(), settings.seed))
     , workspaces_(
@@ -204,22 +205,24 @@ private:
     look(particles_[first + place], set == 0, directions.directions, work.sums, workspace);
     if (work.sums.hasSubsets())
     {
-      work.error = squaredError(formula_, work.sums, directions.open);
+      work.error = squaredError(formula_, work.sums, directions.open, directions.smoothing);
     }
     work.finished = work.sums.buried || set + 1 == sets_.size() ||
       (targetError_ > 0 && work.error.rms() <= targetError_);
     if (work.finished)
     {
-      finish(place, work, directions.open, workspace);
+      finish(place, work, directions, workspace);
     }
   }
 
-  void finish(
-    std::size_t place, const ParticleWork& work, const OpenSums& open, Workspace& workspace)
+  void finish(std::size_t place, const ParticleWork& work, const DirectionSet& directions,
+    Workspace& workspace)
   {
     const std::size_t texels = texelsOfTexture();
     float* shares = shares_.data() + place * texels;
-    fillTexture(formula_, work.sums, open, values_.data() + place * texels, shares);
+    float* values = values_.data() + place * texels;
+    fillTexture(formula_, work.sums, directions.open, values, shares);
+    directions.smoothing.apply(values, shares);
     BakeCounters& counters = workspace.counters;
     ++counters.particles;
     counters.texels += texels;

@@ -11,6 +11,7 @@ struct EmbreeOptions
 {
   int directions = 0;     ///< 0: as many as the settings' samplesPerTexel stand for
   double targetError = 0; ///< above 0: RMS error to reach on every single particle, if possible
+  bool smooth = true;     ///< textures, see TextureSmoothing; off for measurements
 };
 
 /// What it did to reach its result.

@@ -3,7 +3,6 @@
 
 #include "Random.h"
 #include "SweepDirections.h"
-#include "SweepTextures.h"
 
 #include <tbb/parallel_for.h>
 
@@ -84,7 +83,7 @@ std::vector<std::uint8_t> aloneFlags(
 }
 
 ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
-  const BakeSettings& settings, const SweepSkips& skips, Watch watch)
+  const BakeSettings& settings, const SweepSkips& skips, Watch watch, bool smooth)
   : settings_(settings)
   , particles_(std::move(particles))
   , order_(scene.rays.set())
@@ -95,6 +94,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   , records_(scene, order_, texels_, settings.seed, order_.flagsOf(particles_), alone_, watched_)
   , sweep_(order_, settings.background, scene.cloud.toLocalReach(settings.maximumDistance),
       records_, skips, alone_)
+  , smooth_(smooth)
 {
 }
 
@@ -119,12 +119,19 @@ int ProgressiveSweep::directions() const
   return sweep_.directions() - sweep_.blackDirections();
 }
 
+/// What there is so far.
+SweepTextures ProgressiveSweep::textures() const
+{
+  return { records_, settings_.background,
+    smooth_ ? TextureSmoothing(texels_, sweep_.directions()) : TextureSmoothing() };
+}
+
 std::vector<SquaredError> ProgressiveSweep::squaredErrors() const
 {
-  const SweepTextures textures(records_, settings_.background);
+  const SweepTextures made = textures();
   std::vector<SquaredError> errors(watched_.size());
   tbb::parallel_for(std::size_t(0), watched_.size(),
-    [&](std::size_t i) { errors[i] = textures.squaredError(watched_[i]); });
+    [&](std::size_t i) { errors[i] = made.squaredError(watched_[i]); });
   return errors;
 }
 
@@ -145,7 +152,7 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
   const auto side = static_cast<std::size_t>(settings_.textureResolution);
   const std::size_t texels = side * side;
   const std::size_t chunk = std::max<std::size_t>(1, valuesPerChunk / texels);
-  const SweepTextures textures(records_, settings_.background);
+  const SweepTextures made = textures();
   std::vector<float> values;
   std::vector<float> shares;
   progress.begin(
@@ -158,7 +165,7 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
     tbb::parallel_for(std::size_t(0), count,
       [&](std::size_t i)
       {
-        textures.fill(order_.indexOf(particles_[first + i]), values.data() + i * texels,
+        made.fill(order_.indexOf(particles_[first + i]), values.data() + i * texels,
           shares.data() + i * texels);
       });
     replace(replacements, first, count, values, shares);

@@ -6,6 +6,7 @@
 #include "SphereSweep.h"
 #include "SweepScene.h"
 #include "SweepTexels.h"
+#include "SweepTextures.h"
 #include "TextureFormula.h"
 #include "VisibilityRecords.h"
 
@@ -36,9 +37,11 @@ public:
   };
 
   /// @param particles whose textures are wanted, by their index in the cloud; all others occlude.
+  /// @param smooth whether textures are smoothed, see TextureSmoothing
   /// The scene and the settings must outlive this.
   ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
-    const BakeSettings& settings, const SweepSkips& skips = {}, Watch watch = Watch::Some);
+    const BakeSettings& settings, const SweepSkips& skips = {}, Watch watch = Watch::Some,
+    bool smooth = true);
 
   /// How further directions are spread.
   enum class Spread
@@ -72,6 +75,8 @@ public:
     const TextureReplacements& replacements = {}) const;
 
 private:
+  [[nodiscard]] SweepTextures textures() const;
+
   const BakeSettings& settings_;
   std::vector<unsigned> particles_;
   SweepScene order_;
@@ -80,6 +85,7 @@ private:
   std::vector<std::uint8_t> alone_; ///< flags, by index in `order_`
   VisibilityRecords records_;
   SphereSweep sweep_;
+  bool smooth_;
   std::uint64_t rounds_ = 0;
 };
 }

@@ -45,7 +45,8 @@ public:
     , settings_(settings)
     , options_(options)
     , progress_(progress)
-    , sweep_(scene, particles, settings, options.skips, ProgressiveSweep::Watch::All)
+    , sweep_(
+        scene, particles, settings, options.skips, ProgressiveSweep::Watch::All, options.smooth)
   {
   }
 
@@ -181,10 +182,7 @@ private:
 
 int sweepDirectionsForSamples(int samplesPerTexel)
 {
-  // Directions at the error of jittered rays, between measured numbers of directions: 49 rays, 85
-  // (pack) to 140 (molecule); 200 rays, 320 (molecule) to 440 (gas). Of 16 rays it is known only
-  // that 64 directions are better in pack, overlap, gas, foam and molecule.
-  const double directions = 144 * std::pow(samplesPerTexel / 49.0, 0.9);
+  const double directions = 112 * std::pow(samplesPerTexel / 49.0, 0.9);
   const double blocks = std::ceil(directions / DirectionsPerBlock);
   return static_cast<int>(
     std::clamp(blocks * DirectionsPerBlock, 16.0, double(SweepEstimator::MaximumDirections)));
@@ -217,8 +215,8 @@ void SweepEstimator::estimateParts(const BakeScene& scene, const std::vector<uns
   {
     const std::size_t first = particles.size() * part / parts;
     const std::size_t last = particles.size() * (part + 1) / parts;
-    ProgressiveSweep sweep(
-      scene, { particles.begin() + first, particles.begin() + last }, settings, options_.skips);
+    ProgressiveSweep sweep(scene, { particles.begin() + first, particles.begin() + last }, settings,
+      options_.skips, ProgressiveSweep::Watch::Some, options_.smooth);
     sweep.refine(directions, progress);
     report_.directions = sweep.directions();
     if (progress.aborted())

@@ -18,6 +18,7 @@ struct SweepOptions
   /// With a target error, which is judged over all particles, there is one part.
   int parts = 1;
   SweepSkips skips = {};
+  bool smooth = true; ///< textures, see TextureSmoothing; off for measurements
 };
 
 /// What a sweep did to reach its result.

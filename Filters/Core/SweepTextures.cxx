@@ -3,11 +3,15 @@
 
 #include "Constants.h"
 
+#include <utility>
+
 namespace po
 {
-SweepTextures::SweepTextures(const VisibilityRecords& records, const Background& background)
+SweepTextures::SweepTextures(
+  const VisibilityRecords& records, const Background& background, TextureSmoothing smoothing)
   : records_(records)
   , formula_(records.texels(), records.patterns(), background)
+  , smoothing_(std::move(smoothing))
   , dark_(ErrorSubsets * records.texels().slots(), 0.0f)
 {
 }
@@ -25,10 +29,13 @@ void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
   if (cut == nullptr)
   {
     formula_.fill(formula_.whole(), sums, records_.openWeights().total.data(), values, shares);
-    return;
   }
-  const std::vector<float> weights = records_.outsideWeights(*cut);
-  formula_.fill(formula_.cut(cut->exposure), sums, weights.data(), values, shares);
+  else
+  {
+    const std::vector<float> weights = records_.outsideWeights(*cut);
+    formula_.fill(formula_.cut(cut->exposure), sums, weights.data(), values, shares);
+  }
+  smoothing_.apply(values, shares);
 }
 
 SquaredError SweepTextures::squaredError(unsigned sphere) const
@@ -42,9 +49,11 @@ SquaredError SweepTextures::squaredError(unsigned sphere) const
   const float* sums = seen == nullptr ? dark_.data() : seen;
   if (cut == nullptr)
   {
-    return formula_.squaredError(formula_.whole(), sums, records_.openWeights().subsets.data());
+    return formula_.squaredError(
+      formula_.whole(), sums, records_.openWeights().subsets.data(), smoothing_);
   }
-  return formula_.squaredError(formula_.cut(cut->exposure), sums, subsetWeights(*cut).data());
+  return formula_.squaredError(
+    formula_.cut(cut->exposure), sums, subsetWeights(*cut).data(), smoothing_);
 }
 
 /// The outside part of a texel's weights is nearly the same in all subsets; what it is in each is

@@ -14,7 +14,9 @@ namespace po
 class SweepTextures
 {
 public:
-  SweepTextures(const VisibilityRecords& records, const Background& background);
+  /// @param smoothing of what so many directions leave
+  SweepTextures(
+    const VisibilityRecords& records, const Background& background, TextureSmoothing smoothing);
 
   /// Fills the T * T values and outside shares of a sphere. Of one that was never seen the
   /// shares are not looked for: values 0, shares 1.
@@ -28,6 +30,7 @@ private:
 
   const VisibilityRecords& records_;
   TextureFormula formula_;
+  TextureSmoothing smoothing_;
   std::vector<float> dark_; ///< [ErrorSubsets][slots] zeros
 };
 }

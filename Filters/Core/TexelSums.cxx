@@ -65,8 +65,8 @@ void fillTexture(const TextureFormula& formula, const TexelSums& sums, const Ope
     values, shares);
 }
 
-SquaredError squaredError(
-  const TextureFormula& formula, const TexelSums& sums, const OpenSums& open)
+SquaredError squaredError(const TextureFormula& formula, const TexelSums& sums,
+  const OpenSums& open, const TextureSmoothing& smoothing)
 {
   if (sums.buried)
   {
@@ -74,6 +74,6 @@ SquaredError squaredError(
   }
   const std::vector<float>& weights = sums.isCut() ? sums.subsetWeights : open.subsets;
   return formula.squaredError(
-    sums.isCut() ? sums.outside : formula.whole(), sums.subsets.data(), weights.data());
+    sums.isCut() ? sums.outside : formula.whole(), sums.subsets.data(), weights.data(), smoothing);
 }
 }

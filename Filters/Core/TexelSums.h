@@ -63,8 +63,8 @@ void fillTexture(const TextureFormula& formula, const TexelSums& sums, const Ope
   float* values, float* shares);
 
 /// Of one that has subsets.
-[[nodiscard]] SquaredError squaredError(
-  const TextureFormula& formula, const TexelSums& sums, const OpenSums& open);
+[[nodiscard]] SquaredError squaredError(const TextureFormula& formula, const TexelSums& sums,
+  const OpenSums& open, const TextureSmoothing& smoothing);
 }
 
 #endif

@@ -10,6 +10,33 @@
 
 namespace po
 {
+namespace
+{
+/// The mean of the subsets' values and its squared standard error.
+struct Spread
+{
+  double mean;
+  double squaredError;
+};
+
+template <typename Value>
+Spread spreadOf(const Value& valueOfSubset)
+{
+  double mean = 0;
+  for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
+  {
+    mean += static_cast<double>(valueOfSubset(subset)) / ErrorSubsets;
+  }
+  double squares = 0;
+  for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
+  {
+    const double deviation = static_cast<double>(valueOfSubset(subset)) - mean;
+    squares += deviation * deviation;
+  }
+  return { mean, squares / (ErrorSubsets * (ErrorSubsets - 1)) };
+}
+}
+
 void SquaredError::add(const SquaredError& other)
 {
   sum += other.sum;
@@ -135,36 +162,36 @@ void TextureFormula::fill(float value, float share, float* values, float* shares
   std::fill(shares, shares + texels(), share);
 }
 
-SquaredError TextureFormula::squaredError(
-  const OutsideSurface& surface, const float* sums, const float* weights) const
+SquaredError TextureFormula::squaredError(const OutsideSurface& surface, const float* sums,
+  const float* weights, const TextureSmoothing& smoothing) const
 {
   const std::size_t slots = groups_ * GroupSize;
   const std::size_t count = texels();
   std::vector<float> shares(count);
-  std::vector<float> values(ErrorSubsets * count);
+  std::vector<float> rough(ErrorSubsets * count);
   for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
   {
-    fill(surface, sums + subset * slots, weights + subset * slots, values.data() + subset * count,
+    fill(surface, sums + subset * slots, weights + subset * slots, rough.data() + subset * count,
       shares.data());
   }
+  std::vector<float> smooth = rough;
+  for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
+  {
+    smoothing.apply(smooth.data() + subset * count, shares.data());
+  }
   SquaredError error;
+  double blur = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
     const double area = steradians_[i] * static_cast<double>(shares[i]);
-    double mean = 0;
-    for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
-    {
-      mean += static_cast<double>(values[subset * count + i]) / ErrorSubsets;
-    }
-    double squares = 0;
-    for (std::size_t subset = 0; subset < ErrorSubsets; ++subset)
-    {
-      const double deviation = static_cast<double>(values[subset * count + i]) - mean;
-      squares += deviation * deviation;
-    }
+    const Spread smoothed = spreadOf([&](std::size_t k) { return smooth[k * count + i]; });
+    const Spread change =
+      spreadOf([&](std::size_t k) { return smooth[k * count + i] - rough[k * count + i]; });
     error.area += area;
-    error.sum += area * squares / (ErrorSubsets * (ErrorSubsets - 1));
+    error.sum += area * smoothed.squaredError;
+    blur += area * (change.mean * change.mean - change.squaredError);
   }
+  error.sum += std::max(blur, 0.0);
   return error;
 }
 }

@@ -5,6 +5,7 @@
 #include "BackgroundIrradiance.h"
 #include "SweepTexels.h"
 #include "TexelExposure.h"
+#include "TextureSmoothing.h"
 
 #include <cstddef>
 #include <vector>
@@ -63,10 +64,11 @@ public:
   /// Fills a texture all alike.
   void fill(float value, float share, float* values, float* shares) const;
 
-  /// The errors of a texture, from the spread of the subsets as if these were independent.
+  /// The errors of a smoothed texture: from the spread of the subsets, as if these were
+  /// independent, and from what smoothing changes beyond the noise that it takes out.
   /// @param sums, weights [ErrorSubsets][slots]
-  [[nodiscard]] SquaredError squaredError(
-    const OutsideSurface& surface, const float* sums, const float* weights) const;
+  [[nodiscard]] SquaredError squaredError(const OutsideSurface& surface, const float* sums,
+    const float* weights, const TextureSmoothing& smoothing) const;
 
 private:
   void addParts(const SweepTexels& texels);

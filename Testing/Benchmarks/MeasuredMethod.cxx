@@ -42,7 +42,8 @@ MeasuredMethod makeMethod(const std::string& name, int level, const std::string&
   {
     SweepOptions options;
     options.directions = level;
-    options.skips = skipsWithout(without);
+    options.smooth = without != "smoothing";
+    options.skips = skipsWithout(options.smooth ? without : "");
     return { std::make_unique<SweepEstimator>(options), 1, true };
   }
   if (!without.empty())

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "TextureSmoothing.h"
+
+// Highway compiles this file once for each instruction set (SSE4, AVX2, AVX-512, NEON, ...) and
+// chooses when it runs. No sum is reordered, so that only fused multiply-adds make a difference.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "TextureSmoothing.cxx"
+#include <hwy/foreach_target.h> // must come before highway.h
+#include <hwy/highway.h>
+
+#include "TexelLanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace po::HWY_NAMESPACE
+{
+using Tap = TextureSmoothing::Tap;
+
+/// S of the texels of a row.
+void sumRow(const Tap* first, const Tap* last, const float* areas, std::size_t columns, float* sums)
+{
+  const Floats d;
+  for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
+  {
+    auto sum = hn::Zero(d);
+    for (const Tap* tap = first; tap != last; ++tap)
+    {
+      sum = hn::MulAdd(hn::Set(d, tap->kernel), hn::LoadU(d, areas + tap->offset + i), sum);
+    }
+    hn::StoreU(sum, d, sums + i);
+  }
+}
+
+/// @param row where it begins in the padded arrays
+void smoothRow(const Tap* first, const Tap* last, std::size_t row, const float* values,
+  const float* areas, const float* scales, std::size_t columns, float* smoothed)
+{
+  const Floats d;
+  for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
+  {
+    const auto own = hn::LoadU(d, values + row + i);
+    const auto scale = hn::LoadU(d, scales + row + i);
+    auto sum = own;
+    for (const Tap* tap = first; tap != last; ++tap)
+    {
+      const std::size_t other = tap->offset + i;
+      const auto part = hn::Mul(hn::Set(d, tap->kernel), hn::LoadU(d, areas + other));
+      const auto flow = hn::Mul(part, hn::Min(scale, hn::LoadU(d, scales + other)));
+      sum = hn::MulAdd(flow, hn::Sub(hn::LoadU(d, values + other), own), sum);
+    }
+    hn::StoreU(sum, d, smoothed + i);
+  }
+}
+}
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "Constants.h"
+#include "TexelMap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace po
+{
+HWY_EXPORT(sumRow);
+HWY_EXPORT(smoothRow);
+
+namespace
+{
+/// Neighbours of less weight are left out.
+constexpr double SmallestKernel = 0.02;
+
+double widthOf(int resolution, int directions)
+{
+  const double texel = Pi / (2.0 * resolution);
+  return std::sqrt(0.01 + texel * texel) * std::pow(96.0 / directions, 0.25);
+}
+
+Vec3d centreOf(int resolution, int row, int column)
+{
+  return textureDirection({ (column + 0.5) / resolution, (row + 0.5) / resolution });
+}
+}
+
+TextureSmoothing::TextureSmoothing(const SweepTexels& texels, int directions)
+{
+  if (texels.refinement() > 1 || directions < 1)
+  {
+    return;
+  }
+  const int resolution = texels.resolution();
+  side_ = static_cast<std::size_t>(resolution);
+  margin_ = side_ / 2;
+  // Vectors may reach beyond the end of a row.
+  stride_ = 2 * side_ + GroupSize;
+  for (int row = 0; row < resolution; ++row)
+  {
+    areas_.insert(areas_.end(), side_, static_cast<float>(texelArea(resolution, row)));
+  }
+  addTaps(widthOf(resolution, directions));
+  weigh(std::vector<float>(side_ * side_, 1.0f).data(), whole_);
+}
+
+void TextureSmoothing::addTaps(double width)
+{
+  const auto resolution = static_cast<int>(side_);
+  const auto margin = static_cast<int>(margin_);
+  for (int row = 0; row < resolution; ++row)
+  {
+    firstTap_.push_back(taps_.size());
+    const Vec3d centre = centreOf(resolution, row, 0);
+    for (int other = 0; other < resolution; ++other)
+    {
+      for (int shift = -margin; shift < resolution - margin; ++shift)
+      {
+        const double cosine = dot(centre, centreOf(resolution, other, shift));
+        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0)) / width;
+        const double kernel = std::exp(-0.5 * angle * angle);
+        if (kernel >= SmallestKernel)
+        {
+          const std::size_t place = static_cast<std::size_t>(margin + shift);
+          taps_.push_back({ static_cast<std::size_t>(other) * stride_ + place, float(kernel) });
+        }
+      }
+    }
+  }
+  firstTap_.push_back(taps_.size());
+}
+
+std::size_t TextureSmoothing::rowOffset(std::size_t row) const
+{
+  return row * stride_ + margin_;
+}
+
+void TextureSmoothing::pad(const float* texels, std::vector<float>& padded) const
+{
+  padded.resize(side_ * stride_);
+  for (std::size_t row = 0; row < side_; ++row)
+  {
+    const float* from = texels + row * side_;
+    float* to = padded.data() + row * stride_;
+    to = std::copy(from + side_ - margin_, from + side_, to);
+    to = std::copy(from, from + side_, to);
+    to = std::copy(from, from + side_ - margin_, to);
+    std::fill(to, padded.data() + (row + 1) * stride_, 0.0f);
+  }
+}
+
+void TextureSmoothing::weigh(const float* shares, Weights& weights) const
+{
+  std::vector<float> texels(side_ * side_ + GroupSize);
+  std::transform(areas_.begin(), areas_.end(), shares, texels.begin(), std::multiplies<>());
+  pad(texels.data(), weights.areas);
+  for (std::size_t row = 0; row < side_; ++row)
+  {
+    float* sums = texels.data() + row * side_;
+    HWY_DYNAMIC_DISPATCH(sumRow)
+    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], weights.areas.data(), side_,
+      sums);
+  }
+  for (std::size_t i = 0; i < side_ * side_; ++i)
+  {
+    texels[i] = shares[i] > 0 ? 1 / texels[i] : 0.0f;
+  }
+  pad(texels.data(), weights.scales);
+}
+
+void TextureSmoothing::apply(float* values, const float* shares) const
+{
+  if (side_ == 0)
+  {
+    return;
+  }
+  thread_local Weights cut;
+  thread_local std::vector<float> padded;
+  thread_local std::vector<float> smoothed;
+  const bool isWhole =
+    std::all_of(shares, shares + side_ * side_, [](float share) { return share == 1.0f; });
+  if (!isWhole)
+  {
+    weigh(shares, cut);
+  }
+  const Weights& weights = isWhole ? whole_ : cut;
+  pad(values, padded);
+  smoothed.resize(side_ + GroupSize);
+  for (std::size_t row = 0; row < side_; ++row)
+  {
+    HWY_DYNAMIC_DISPATCH(smoothRow)
+    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], rowOffset(row),
+      padded.data(), weights.areas.data(), weights.scales.data(), side_, smoothed.data());
+    std::copy_n(smoothed.begin(), side_, values + row * side_);
+  }
+}
+}
+#endif
