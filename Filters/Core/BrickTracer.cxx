@@ -134,8 +134,12 @@ void BrickTracer::tracePacket(const PixelRange& range, TraceCounters& counters) 
   alignas(64) RTCRayHit16 query;
   makeRays(functions_, range.x0, range.y0, settings_.sampleX, settings_.sampleY, start_, isCut_,
     packet, query);
-  findCandidates(range, query, packet);
   counters.rays += static_cast<std::size_t>((range.x1 - range.x0) * (range.y1 - range.y0));
+  if (!findCandidates(range, query, packet))
+  {
+    clearFirst(range);
+    return;
+  }
   const std::size_t doubtful =
     meetFronts(functions_, range.x0, range.y0, settings_.sampleX, settings_.sampleY, packet);
   isFirst() ? copyPacket(range, packet, counters) : mergePacket(range, packet, counters);
@@ -145,8 +149,8 @@ void BrickTracer::tracePacket(const PixelRange& range, TraceCounters& counters) 
   }
 }
 
-/// What Embree finds.
-void BrickTracer::findCandidates(
+/// What Embree finds; false if it finds nothing.
+bool BrickTracer::findCandidates(
   const PixelRange& range, RTCRayHit16& query, PrimaryPacket& packet) const
 {
   alignas(64) int valid[PrimaryPacket::Size] = {};
@@ -158,9 +162,11 @@ void BrickTracer::findCandidates(
   context.ray = nullptr;
   intersect16(
     valid, scene_.handle(number_), context.embree, query, settings_.hidden ? passSpheres : nullptr);
+  bool any = false;
   for (std::size_t lane = 0; lane < PrimaryPacket::Size; ++lane)
   {
     const bool hit = query.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+    any |= hit;
     const unsigned place = query.hit.primID[lane];
     const Sphere sphere = hit ? brick_.spheres[place] : Sphere{ 0, 0, 0, 0 };
     packet.sphere[0][lane] = sphere.x;
@@ -169,6 +175,7 @@ void BrickTracer::findCandidates(
     packet.sphere[3][lane] = sphere.radius;
     packet.id[lane] = hit ? brick_.id(place) : SphereScene::None;
   }
+  return any;
 }
 
 /// Writes all pixels, found or not.

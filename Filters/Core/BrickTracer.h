@@ -39,7 +39,8 @@ private:
 
   // Packets of pixels.
   void tracePacket(const PixelRange& range, TraceCounters& counters) const;
-  void findCandidates(const PixelRange& range, RTCRayHit16& query, PrimaryPacket& packet) const;
+  [[nodiscard]] bool findCandidates(
+    const PixelRange& range, RTCRayHit16& query, PrimaryPacket& packet) const;
   void copyPacket(
     const PixelRange& range, const PrimaryPacket& packet, TraceCounters& counters) const;
   void mergePacket(

@@ -71,17 +71,6 @@ float OcclusionTextures::at(std::size_t particle, Vec3f direction) const
   return values[0];
 }
 
-const void* OcclusionTextures::texelsOf(std::int32_t row) const
-{
-  if (packed_)
-  {
-    return packed_->code(static_cast<std::size_t>(row));
-  }
-  return paged_ ? paged_->find(row)
-                : static_cast<const std::byte*>(texels_) +
-      static_cast<std::size_t>(row) * format_.textureBytes();
-}
-
 void OcclusionTextures::request(const OcclusionLookup& lookup) const
 {
   for (const std::int64_t particle : lookup.particles)
@@ -95,20 +84,41 @@ void OcclusionTextures::request(const OcclusionLookup& lookup) const
 
 void OcclusionTextures::locate(OcclusionLookup& lookup) const
 {
-  lookup.textures.fill(nullptr);
   if (!rows_)
   {
+    lookup.textures.fill(nullptr);
     return;
   }
   findTexels(format_.resolution, lookup.texels);
-  const std::size_t texelBytes = packed_ ? 0 : format_.bytes ? 1 : sizeof(float);
+  const std::size_t texelBytes = format_.bytes ? 1 : sizeof(float);
+  if (packed_)
+  {
+    locate(lookup, 0, [this](std::int32_t first) { return packed_->code(std::size_t(first)); });
+  }
+  else if (paged_)
+  {
+    locate(lookup, texelBytes, [this](std::int32_t row) { return paged_->find(row); });
+  }
+  else
+  {
+    const auto* first = static_cast<const std::byte*>(texels_);
+    const std::size_t length = format_.textureBytes();
+    locate(lookup, texelBytes, [=](std::int32_t row) { return first + std::size_t(row) * length; });
+  }
+}
+
+/// @param textureOf where the texture of a row begins, null if it is not in memory
+template <typename TextureOf>
+void OcclusionTextures::locate(
+  OcclusionLookup& lookup, std::size_t texelBytes, const TextureOf& textureOf) const
+{
   for (std::size_t i = 0; i < OcclusionLookup::Size; ++i)
   {
     const std::int32_t row = rowOf(lookup.particles[i]);
-    lookup.textures[i] = row < 0 ? nullptr : texelsOf(row);
-    const auto* first = static_cast<const std::byte*>(lookup.textures[i]);
-    if (first)
+    lookup.textures[i] = row < 0 ? nullptr : textureOf(row);
+    if (lookup.textures[i])
     {
+      const auto* first = static_cast<const std::byte*>(lookup.textures[i]);
       hwy::Prefetch(first + texelBytes * static_cast<std::size_t>(lookup.texels.texel[0][i]));
       hwy::Prefetch(first + texelBytes * static_cast<std::size_t>(lookup.texels.texel[2][i]));
     }

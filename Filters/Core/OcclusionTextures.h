@@ -101,11 +101,10 @@ public:
 
 private:
   void finishPacked(const OcclusionLookup& lookup, float* values) const;
+  template <typename TextureOf>
+  void locate(OcclusionLookup& lookup, std::size_t texelBytes, const TextureOf& textureOf) const;
   template <typename Decode>
   void interpolate(const OcclusionLookup& lookup, const Decode& decode, float* values) const;
-
-  /// Where a texture begins, or null if it is not in memory.
-  [[nodiscard]] const void* texelsOf(std::int32_t row) const;
 
   void decodeBytes();
 

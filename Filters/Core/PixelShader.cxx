@@ -127,16 +127,20 @@ void PixelShader::load(const PixelRange& tile, int y, Row& row) const
   row.pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(in_.frame.width) +
     static_cast<std::size_t>(tile.x0);
   row.count = static_cast<std::size_t>(tile.x1 - tile.x0);
-  row.any = false;
   const std::uint32_t* spheres = in_.frame.sphere.data() + row.pixel;
   const Vec3f* normals = in_.frame.normal.data() + row.pixel;
   prefetchBlock(spheres + Size); // of the tile to the right
   prefetchBlock(normals + Size);
+  row.any =
+    std::count(spheres, spheres + row.count, SphereScene::None) != std::ptrdiff_t(row.count);
+  if (!row.any)
+  {
+    return;
+  }
   for (std::size_t lane = 0; lane < Size; ++lane)
   {
     const bool shown = lane < row.count && spheres[lane] != SphereScene::None;
     row.shown[lane] = shown;
-    row.any |= shown;
     row.lookup.particles[lane] = shown && needsParticles_ ? particleOf(spheres[lane]) : -1;
     const Vec3f normal = lane < row.count ? normals[lane] : Vec3f{};
     row.lookup.texels.x[lane] = normal.x;
