@@ -16,6 +16,9 @@ using Words = ProcessGroup::Words;
 
 constexpr std::size_t WordBytes = sizeof(std::uint64_t);
 
+/// In window depth: rounding shall not hide a line behind what it lies in front of.
+constexpr float DepthTolerance = 5e-7F;
+
 /// What all processes together see in a tile, from the ranges of each.
 struct SharedRange
 {
@@ -164,9 +167,9 @@ void SharedSilhouettes::find(const std::vector<TracedLayer>& own, const Camera& 
   if (!depth_.empty())
   {
     findTracedSilhouettes(depth_, rule, found_, { true, true });
-    appendLines(
-      found_, first, end,
-      [this](int pixel) { return depth_.windowDepth(pixel % width_, pixel / width_); }, ownLines);
+    const auto depthOf = [this](int pixel)
+    { return depth_.windowDepth(pixel % width_, pixel / width_) - DepthTolerance; };
+    appendLines(found_, first, end, depthOf, ownLines);
   }
   const bool toAll = destination < 0;
   const int receivers = toAll ? group.size() - 1 : static_cast<int>(destination != group.rank());

@@ -18,6 +18,8 @@ struct SharedBytes
   std::size_t ranges = 0; ///< of tiles
   std::size_t depths = 0;
   std::size_t lines = 0;
+
+  [[nodiscard]] std::size_t all() const { return ranges + depths + lines; }
 };
 
 /// The silhouettes of spheres that are divided over processes in any way: those that one process
