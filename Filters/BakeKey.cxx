@@ -12,7 +12,7 @@ namespace po
 namespace
 {
 /// To be raised whenever a bake of the same task gives other bits, or entries another layout.
-constexpr std::uint32_t ResultVersion = 2;
+constexpr std::uint32_t ResultVersion = 3;
 
 template <typename Number>
 void addNumber(Digest& digest, Number number)
@@ -94,7 +94,8 @@ void add(Digest& digest, const Occluders& occluders)
 
 void add(Digest& digest, const BakeTask& task)
 {
-  const auto& [cloud, receivers, occluders, settings, targetError] = task;
+  const auto& [cloud, receivers, occluders, settings, targetError, outOfCore] = task;
+  static_cast<void>(outOfCore); // the bits are the same
   add(digest, cloud);
   digest.add(receivers);
   add(digest, occluders);

@@ -36,12 +36,25 @@ public:
     All   ///< which takes 16 bytes a texel more
   };
 
+  /// Where what is seen is kept until it is handed out.
+  enum class Records
+  {
+    InMemory,
+    OutOfCore ///< in a temporary file; error bars are known when all is handed out
+  };
+
+  struct Options
+  {
+    SweepSkips skips = {};
+    Watch watch = Watch::Some;
+    Records records = Records::InMemory;
+    bool smooth = true; ///< textures, see TextureSmoothing
+  };
+
   /// @param particles whose textures are wanted, by their index in the cloud; all others occlude.
-  /// @param smooth whether textures are smoothed, see TextureSmoothing
   /// The scene and the settings must outlive this.
   ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
-    const BakeSettings& settings, const SweepSkips& skips = {}, Watch watch = Watch::Some,
-    bool smooth = true);
+    const BakeSettings& settings, const Options& options);
 
   /// How further directions are spread.
   enum class Spread
@@ -76,6 +89,7 @@ public:
 
 private:
   [[nodiscard]] SweepTextures textures() const;
+  [[nodiscard]] std::size_t loadFor(std::size_t place) const;
 
   const BakeSettings& settings_;
   std::vector<unsigned> particles_;

@@ -62,6 +62,7 @@ private:
       fetch(lines_.strength.data(), 1);
       fetch(lines_.front.data(), 1);
       fetch(surroundings_.windowDepth, 1);
+      fetch(surroundings_.lineDepth, 1);
       fetch(surroundings_.rgba, 4);
     }
   }
@@ -113,6 +114,10 @@ private:
 
   [[nodiscard]] float depthAt(std::size_t pixel) const
   {
+    if (surroundings_.lineDepth)
+    {
+      return surroundings_.lineDepth[pixel];
+    }
     const float* depth = surroundings_.windowDepth;
     // A line also covers parts of pixels that show what is in front of it.
     return depth ? std::min(depth[lines_.front[pixel]], depth[pixel]) : 0;

@@ -32,6 +32,8 @@ struct SilhouetteSurroundings
 {
   const std::uint8_t* rgba = nullptr; ///< of the picture
   const float* windowDepth = nullptr;
+  /// Of what is in front of the line in a pixel, in place of `windowDepth`.
+  const float* lineDepth = nullptr;
 };
 
 /// Colours lines. Without a window depth lines lie in front of everything (0). Tiles without lines

@@ -18,37 +18,43 @@ namespace
 /// A sphere that lies in front of edges.
 struct FrontSphere
 {
-  TracedDepth::NumberedSphere sphere;
+  SphereDepth::NumberedSphere sphere;
   Rim rim;
+  std::size_t slot; ///< in the table of FrontSpheres
 };
 
-/// The spheres in front of the edges of one tile that were met so far. One that is met again after
-/// many others may be there twice.
+/// The spheres in front of the edges of one tile, each once: a hash table that is emptied quickly.
 class FrontSpheres
 {
 public:
-  FrontSpheres() { entries_.fill({ SphereScene::None, 0 }); }
+  FrontSpheres() { table_.fill({ SphereScene::None, 0 }); }
 
   void clear()
   {
     for (const FrontSphere& one : all_)
     {
-      entries_[one.rim.shown % Size].number = SphereScene::None;
+      table_[one.slot].number = SphereScene::None;
     }
     all_.clear();
   }
 
   /// The rim of the sphere of a number.
-  Rim& find(const TracedDepth& depth, std::uint32_t number)
+  Rim& find(const SphereDepth& depth, std::uint32_t number)
   {
-    Entry& entry = entries_[number % Size];
+    std::size_t slot = number % Size;
+    while (table_[slot].number != number && table_[slot].number != SphereScene::None)
+    {
+      slot = (slot + 1) % Size;
+    }
+    Entry& entry = table_[slot];
     if (entry.number != number)
     {
-      entry = { number, all_.size() };
+      entry = { number, static_cast<std::uint32_t>(all_.size()) };
       FrontSphere& front = all_.emplace_back();
       front.sphere = depth.sphereOf(number);
       front.rim.number = static_cast<std::int32_t>(entry.place);
       front.rim.shown = number;
+      front.slot = slot;
       hwy::Prefetch(front.sphere.sphere);
     }
     return all_[entry.place].rim;
@@ -57,15 +63,17 @@ public:
   [[nodiscard]] std::vector<FrontSphere>& all() { return all_; }
 
 private:
-  static constexpr std::size_t Size = 256;
+  /// Twice the edges that there can be.
+  static constexpr std::size_t Size =
+    2 * (DepthTileSize + 2 * RimTile::Border) * (DepthTileSize + 2 * RimTile::Border);
 
   struct Entry
   {
     std::uint32_t number;
-    std::size_t place; ///< in all_
+    std::uint32_t place; ///< in all_
   };
 
-  std::array<Entry, Size> entries_{};
+  std::array<Entry, Size> table_{};
   std::vector<FrontSphere> all_;
 };
 
@@ -73,7 +81,7 @@ private:
 class RimPainter
 {
 public:
-  RimPainter(const TracedDepth& depth, const SilhouetteRule& rule, bool findFronts)
+  RimPainter(const SphereDepth& depth, const SilhouetteRule& rule, bool findFronts)
     : depth_(depth)
     , rule_(rule)
     , findFronts_(findFronts)
@@ -100,9 +108,9 @@ public:
     tile_.pitch = block.stride();
     placeEdges(image);
     patches_.clear();
-    for (const TracedLayer& layer : depth_.layers())
+    for (std::size_t layer = 0; layer < depth_.layerCount(); ++layer)
     {
-      patches_.push_back(makeRayPatch(layer.rays.around(x_ + Middle, y_ + Middle)));
+      patches_.push_back(makeRayPatch(depth_.raysOf(layer).around(x_ + Middle, y_ + Middle)));
     }
     tile_.strength.fill(0);
     bool any = false;
@@ -191,7 +199,7 @@ private:
     }
   }
 
-  const TracedDepth& depth_;
+  const SphereDepth& depth_;
   const SilhouetteRule& rule_;
   bool findFronts_;
   int reach_; ///< pixels beyond an edge that its line can cover
@@ -204,7 +212,7 @@ private:
 };
 }
 
-SilhouetteCounters findTracedSilhouettes(const TracedDepth& depth, const SilhouetteRule& rule,
+SilhouetteCounters findTracedSilhouettes(const SphereDepth& depth, const SilhouetteRule& rule,
   SilhouetteImage& image, const SilhouetteOptions& options)
 {
   if (rule.samples == 1)

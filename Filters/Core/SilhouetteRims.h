@@ -3,7 +3,7 @@
 #define po_SilhouetteRims_h
 
 #include "SilhouetteFinder.h"
-#include "TracedDepth.h"
+#include "SphereDepth.h"
 
 namespace po
 {
@@ -17,7 +17,7 @@ namespace po
 /// from the sphere, as (h - r) / |grad h| with h the distance of its centre from the pixel's ray,
 /// and the rim is taken as straight within a pixel. It is what infinitely many samples would give,
 /// as long as particles are larger than a pixel; the number of samples does not matter.
-SilhouetteCounters findTracedSilhouettes(const TracedDepth& depth, const SilhouetteRule& rule,
+SilhouetteCounters findTracedSilhouettes(const SphereDepth& depth, const SilhouetteRule& rule,
   SilhouetteImage& image, const SilhouetteOptions& options = {});
 }
 

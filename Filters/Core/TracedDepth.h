@@ -2,8 +2,8 @@
 #ifndef po_TracedDepth_h
 #define po_TracedDepth_h
 
-#include "DepthSource.h"
 #include "FrameTracer.h"
+#include "SphereDepth.h"
 
 namespace po
 {
@@ -16,13 +16,11 @@ struct TracedLayer
 };
 
 /// The depths of traced frames of one window, one sample a pixel, the nearest layer in front.
-class TracedDepth : public DepthSource
+class TracedDepth : public SphereDepth
 {
 public:
   /// All layers must be of the same size. They are not copied.
   explicit TracedDepth(std::vector<TracedLayer> layers);
-
-  [[nodiscard]] const std::vector<TracedLayer>& layers() const { return layers_; }
 
   [[nodiscard]] int width() const override { return layers_.front().frame.width; }
   [[nodiscard]] int height() const override { return layers_.front().frame.height; }
@@ -32,18 +30,14 @@ public:
   }
   void fill(SampleBlock& block) const override;
 
-  /// A sphere of one of the layers, which are counted one after the other.
-  struct NumberedSphere
+  /// The spheres of the layers are counted one after the other.
+  [[nodiscard]] NumberedSphere sphereOf(std::uint32_t number) const override;
+  void fillSpheres(const SampleBlock& block, std::vector<std::uint32_t>& numbers) const override;
+  [[nodiscard]] std::size_t layerCount() const override { return layers_.size(); }
+  [[nodiscard]] const PrimaryRays& raysOf(std::size_t layer) const override
   {
-    std::size_t layer;
-    const Sphere* sphere;
-  };
-
-  [[nodiscard]] NumberedSphere sphereOf(std::uint32_t number) const;
-
-  /// Numbers of the spheres that the pixels of a block show, SphereScene::None where there is none;
-  /// as many numbers as the block has depths.
-  void fillSpheres(const SampleBlock& block, std::vector<std::uint32_t>& numbers) const;
+    return layers_[layer].rays;
+  }
 
 private:
   [[nodiscard]] std::uint32_t numberAt(std::size_t pixel) const;

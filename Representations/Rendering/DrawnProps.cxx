@@ -5,6 +5,7 @@
 
 #include "vtkActor.h"
 #include "vtkActor2D.h"
+#include "vtkMath.h"
 #include "vtkRenderState.h"
 
 #include <algorithm>
@@ -13,22 +14,39 @@ namespace po
 {
 namespace
 {
+/// As the surface of a representation is that shows nothing.
+bool isEmpty(vtkProp* prop)
+{
+  const double* bounds = prop->GetBounds();
+  return bounds && !vtkMath::AreBoundsInitialized(bounds);
+}
+
 /// Does a prop write depth?
 bool isDeep(vtkProp* prop)
 {
-  return prop->GetVisibility() && !vtkActor2D::SafeDownCast(prop) && prop->HasOpaqueGeometry();
+  return prop->GetVisibility() && !vtkActor2D::SafeDownCast(prop) && prop->HasOpaqueGeometry() &&
+    !isEmpty(prop);
+}
 }
 
 std::vector<vtkProp*> propsOf(const vtkRenderState* state)
 {
   return { state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount() };
 }
+
+std::vector<vtkProp*> deepPropsOf(const vtkRenderState* state)
+{
+  std::vector<vtkProp*> props = propsOf(state);
+  props.erase(
+    std::remove_if(props.begin(), props.end(), [](vtkProp* prop) { return !isDeep(prop); }),
+    props.end());
+  return props;
 }
 
-std::vector<vtkActor*> visibleActorsOf(const vtkRenderState* state)
+std::vector<vtkActor*> visibleActorsOf(const std::vector<vtkProp*>& props)
 {
   std::vector<vtkActor*> actors;
-  for (vtkProp* prop : propsOf(state))
+  for (vtkProp* prop : props)
   {
     auto* actor = vtkActor::SafeDownCast(prop);
     if (actor && actor->GetVisibility())
@@ -53,7 +71,8 @@ bool hasOnlySpheres(const std::vector<vtkProp*>& props)
 std::vector<TracedActor> tracedActorsOf(const vtkRenderState* state, int width, int height)
 {
   std::vector<TracedActor> traced;
-  for (vtkActor* actor : visibleActorsOf(state))
+  const std::vector<vtkProp*> props = propsOf(state);
+  for (vtkActor* actor : visibleActorsOf(props))
   {
     const TracedActor one = tracedActorOf(actor, width, height);
     if (one.renderer)
@@ -61,7 +80,6 @@ std::vector<TracedActor> tracedActorsOf(const vtkRenderState* state, int width, 
       traced.push_back(one);
     }
   }
-  const std::vector<vtkProp*> props = propsOf(state);
   const auto deep = std::count_if(props.begin(), props.end(), isDeep);
   return deep == static_cast<std::ptrdiff_t>(traced.size()) ? traced : std::vector<TracedActor>{};
 }

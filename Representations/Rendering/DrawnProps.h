@@ -15,7 +15,12 @@ class vtkRenderState;
 /// What a render state draws.
 namespace po
 {
-[[nodiscard]] std::vector<vtkActor*> visibleActorsOf(const vtkRenderState* state);
+[[nodiscard]] std::vector<vtkProp*> propsOf(const vtkRenderState* state);
+
+/// Those that write depth.
+[[nodiscard]] std::vector<vtkProp*> deepPropsOf(const vtkRenderState* state);
+
+[[nodiscard]] std::vector<vtkActor*> visibleActorsOf(const std::vector<vtkProp*>& props);
 
 /// Are ray-traced spheres all that writes depth?
 [[nodiscard]] bool hasOnlySpheres(const std::vector<vtkProp*>& props);

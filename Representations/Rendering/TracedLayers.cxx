@@ -38,7 +38,7 @@ TracedActor tracedActorOf(vtkProp* prop, int width, int height)
   return isCurrent ? TracedActor{ actor, &renderer } : TracedActor{ nullptr, nullptr };
 }
 
-TracedDepth depthOf(const std::vector<TracedActor>& actors)
+std::vector<TracedLayer> layersOf(const std::vector<TracedActor>& actors)
 {
   std::vector<TracedLayer> layers;
   for (const TracedActor& one : actors)
@@ -46,7 +46,12 @@ TracedDepth depthOf(const std::vector<TracedActor>& actors)
     layers.push_back(
       { one.renderer->frame(), one.renderer->rays(), one.renderer->cloud().spheres });
   }
-  return TracedDepth(std::move(layers));
+  return layers;
+}
+
+TracedDepth depthOf(const std::vector<TracedActor>& actors)
+{
+  return TracedDepth(layersOf(actors));
 }
 
 std::optional<SilhouetteScale> scaleOf(const std::vector<vtkActor*>& actors)

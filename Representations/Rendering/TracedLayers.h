@@ -27,6 +27,7 @@ struct TracedActor
 /// is none.
 [[nodiscard]] TracedActor tracedActorOf(vtkProp* prop, int width, int height);
 
+[[nodiscard]] std::vector<TracedLayer> layersOf(const std::vector<TracedActor>& actors);
 [[nodiscard]] TracedDepth depthOf(const std::vector<TracedActor>& actors);
 
 /// Mean radius over all particles, those of other processes included (see

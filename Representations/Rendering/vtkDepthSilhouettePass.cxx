@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkDepthSilhouettePass.h"
+#include "vtkDepthSilhouettePassInternals.h"
 
 #include "DrawnProps.h"
 #include "ImageDepth.h"
 #include "Projection.h"
 #include "ShrunkCamera.h"
-#include "SilhouettePainter.h"
 #include "SilhouetteParametersOf.h"
 #include "SilhouetteRims.h"
 #include "TracedLayers.h"
 
-#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOpenGLFramebufferObject.h"
-#include "vtkOpenGLRenderWindow.h"
 #include "vtkOpenGLState.h"
-#include "vtkRenderState.h"
-#include "vtkRenderStepsPass.h"
 #include "vtkRenderer.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <optional>
@@ -28,12 +22,11 @@
 
 vtkStandardNewMacro(vtkDepthSilhouettePass);
 
-namespace
+namespace po
 {
-/// Where the renderer draws in the frame buffer that is bound.
-po::SilhouetteViewport viewportOf(const vtkRenderState* state)
+SilhouetteViewport viewportOf(const vtkRenderState* state)
 {
-  po::SilhouetteViewport viewport{};
+  SilhouetteViewport viewport{};
   if (auto* frame = vtkOpenGLFramebufferObject::SafeDownCast(state->GetFrameBuffer()))
   {
     frame->GetLastSize(viewport.width, viewport.height);
@@ -46,6 +39,14 @@ po::SilhouetteViewport viewportOf(const vtkRenderState* state)
   return viewport;
 }
 
+vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state)
+{
+  return vtkOpenGLRenderWindow::SafeDownCast(state->GetRenderer()->GetRenderWindow());
+}
+}
+
+namespace
+{
 /// The projection that the mappers draw with; nothing if it is singular.
 std::optional<po::WindowToEye> windowToEyeOf(vtkRenderer* renderer)
 {
@@ -53,21 +54,11 @@ std::optional<po::WindowToEye> windowToEyeOf(vtkRenderer* renderer)
     renderer->GetTiledAspectRatio(), -1.0, 1.0));
 }
 
-vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state)
-{
-  return vtkOpenGLRenderWindow::SafeDownCast(state->GetRenderer()->GetRenderWindow());
-}
-
 /// Not with an empty viewport or a degenerate camera.
 bool canBeSeen(const vtkRenderState* state)
 {
-  const po::SilhouetteViewport viewport = viewportOf(state);
+  const po::SilhouetteViewport viewport = po::viewportOf(state);
   return viewport.width > 0 && viewport.height > 0 && windowToEyeOf(state->GetRenderer());
-}
-
-bool isTile(const vtkRenderState* state)
-{
-  return po::isTile(state->GetRenderer());
 }
 
 /// Side of the largest frame that is drawn for samples within pixels; every OpenGL 3.2 draws it.
@@ -120,32 +111,6 @@ void findNearest(const std::vector<float>& zBuffer, int width, int height, int s
 
 }
 
-struct vtkDepthSilhouettePass::Internals
-{
-  po::SilhouettePainter Painter;
-  std::vector<vtkSmartPointer<vtkActor>> Actors; ///< that have lines; none: all
-  vtkNew<vtkRenderStepsPass> ActorsPass;         ///< draws them alone
-  po::SilhouetteScale Scale;                     ///< of the last whole picture
-  bool HasScale = false;
-  std::vector<float> ZBuffer, Distances, WindowDepth;
-  const float* FrontDepth = nullptr; ///< what lines are hidden by; null: nothing
-  std::vector<std::uint8_t> Colors;
-  po::SilhouetteImage Lines;
-  po::SilhouettePixels Pixels;
-  int Margin = 0; ///< pixels of Lines around the viewport
-
-  /// The scale of a whole picture, or, for a tile, that of the last whole picture.
-  const po::SilhouetteScale& scale(const po::SilhouetteScale& ofThis, bool whole)
-  {
-    if (whole || !this->HasScale)
-    {
-      this->Scale = ofThis;
-      this->HasScale = whole;
-    }
-    return this->Scale;
-  }
-};
-
 vtkDepthSilhouettePass::vtkDepthSilhouettePass()
   : Internal(std::make_unique<Internals>())
 {
@@ -190,29 +155,39 @@ void vtkDepthSilhouettePass::Render(const vtkRenderState* state)
   const bool selecting = state->GetRenderer()->GetSelector() != nullptr;
   const bool lines =
     this->LineVisibility && !selecting && this->CheckParameters() && canBeSeen(state);
-  const bool around =
-    lines && this->TileMargins && (isTile(state) || !this->Internal->Actors.empty());
-
-  std::string error = around ? this->FindAround(state) : std::string();
-  this->DelegatePass->Render(state);
-  this->NumberOfRenderedProps += this->DelegatePass->GetNumberOfRenderedProps();
-  if (lines && !around)
-  {
-    error = this->Prepare(state);
-  }
-  if (lines && error.empty())
-  {
-    error = this->DrawLines(state);
-  }
+  const std::string error =
+    this->IsShared() ? this->RenderShared(state, lines) : this->RenderAlone(state, lines);
   if (!error.empty())
   {
     vtkErrorMacro("Silhouettes cannot be drawn: " << error);
   }
 }
 
+void vtkDepthSilhouettePass::RenderDelegate(const vtkRenderState* state)
+{
+  this->DelegatePass->Render(state);
+  this->NumberOfRenderedProps += this->DelegatePass->GetNumberOfRenderedProps();
+}
+
+std::string vtkDepthSilhouettePass::RenderAlone(const vtkRenderState* state, bool lines)
+{
+  Internals& self = *this->Internal;
+  const bool around =
+    lines && this->TileMargins && (po::isTile(state->GetRenderer()) || !self.Actors.empty());
+  std::string error = around ? this->FindAround(state) : std::string();
+  this->RenderDelegate(state);
+  if (lines && !around)
+  {
+    error = this->Prepare(state);
+  }
+  return lines && error.empty()
+    ? this->DrawLines(state, self.Lines, { nullptr, self.FrontDepth, nullptr })
+    : error;
+}
+
 std::string vtkDepthSilhouettePass::Prepare(const vtkRenderState* state)
 {
-  const po::SilhouetteViewport viewport = viewportOf(state);
+  const po::SilhouetteViewport viewport = po::viewportOf(state);
   // With several processes the frame buffer has what others have drawn too.
   if (this->TileMargins && !po::tracedActorsOf(state, viewport.width, viewport.height).empty())
   {
@@ -226,9 +201,10 @@ std::string vtkDepthSilhouettePass::Prepare(const vtkRenderState* state)
 std::string vtkDepthSilhouettePass::FindInTracedFrames(const vtkRenderState* state, int margin)
 {
   Internals& self = *this->Internal;
-  const po::SilhouetteViewport viewport = viewportOf(state);
+  const po::SilhouetteViewport viewport = po::viewportOf(state);
   const auto actors = po::tracedActorsOf(state, viewport.width, viewport.height);
-  const po::SilhouetteScale& scale = self.scale(*po::scaleOf(po::actorsOf(actors)), !isTile(state));
+  const po::SilhouetteScale& scale =
+    self.scale(*po::scaleOf(po::actorsOf(actors)), !po::isTile(state->GetRenderer()));
   const po::SilhouetteRule rule = po::resolve(po::silhouetteParametersOf(*this), scale);
   const bool placed = !self.Actors.empty();
   po::findTracedSilhouettes(
@@ -242,8 +218,8 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
   const vtkRenderState* state, int samples, int margin)
 {
   Internals& self = *this->Internal;
-  const po::SilhouetteViewport viewport = viewportOf(state);
-  std::string error = self.Painter.readDepth(windowOf(state), viewport, self.ZBuffer);
+  const po::SilhouetteViewport viewport = po::viewportOf(state);
+  std::string error = self.Painter.readDepth(po::windowOf(state), viewport, self.ZBuffer);
   if (!error.empty())
   {
     return error;
@@ -254,13 +230,14 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
     po::DepthImage<float>{ self.Distances.data(), viewport.width, viewport.height }, samples);
   po::SilhouetteParameters parameters = po::silhouetteParametersOf(*this);
   parameters.samples = samples;
-  const auto ofSpheres = po::scaleOf(po::visibleActorsOf(state));
+  const auto ofSpheres = po::scaleOf(po::visibleActorsOf(po::propsOf(state)));
   if (this->ThresholdUnit != 0 && !ofSpheres)
   {
     return "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
   }
-  const po::SilhouetteScale& scale = self.scale(
-    ofSpheres ? *ofSpheres : po::SilhouetteScale{ 0, po::depthSpread(depth) }, !isTile(state));
+  const po::SilhouetteScale& scale =
+    self.scale(ofSpheres ? *ofSpheres : po::SilhouetteScale{ 0, po::depthSpread(depth) },
+      !po::isTile(state->GetRenderer()));
   const bool placed = !self.Actors.empty();
   po::findSilhouettes(depth, po::resolve(parameters, scale), self.Lines,
     { this->Darken || placed || samples > 1, true });
@@ -277,22 +254,40 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
 std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
 {
   Internals& self = *this->Internal;
-  vtkRenderer* renderer = state->GetRenderer();
-  vtkOpenGLRenderWindow* window = windowOf(state);
-  const po::SilhouetteViewport tile = viewportOf(state);
-  const int margin = isTile(state) ? po::tileMarginOf(po::silhouetteParametersOf(*this)) : 0;
+  const po::SilhouetteViewport tile = po::viewportOf(state);
+  const int margin =
+    po::isTile(state->GetRenderer()) ? po::tileMarginOf(po::silhouetteParametersOf(*this)) : 0;
   const int width = tile.width + 2 * margin, height = tile.height + 2 * margin;
-  std::vector<vtkProp*> props(
-    state->GetPropArray(), state->GetPropArray() + state->GetPropArrayCount());
+  std::vector<vtkProp*> props = po::propsOf(state);
   if (!self.Actors.empty())
   {
     props.assign(self.Actors.begin(), self.Actors.end());
   }
+  const bool spheres = po::hasOnlySpheres(props);
+  const int samples = spheres ? 1 : samplesThatFit(this->Samples, width, height);
+  return this->DrawAside(state, props, samples, margin,
+    [&](const vtkRenderState* inside)
+    {
+      const bool traced = spheres && !po::tracedActorsOf(inside, width, height).empty();
+      return traced ? this->FindInTracedFrames(inside, margin)
+                    : this->FindInZBuffer(inside, samples, margin);
+    });
+}
+
+/// Draws props into a frame buffer of its own, `samples` times as large and `margin` pixels larger
+/// on each side, and calls `use` while it and its camera are there.
+std::string vtkDepthSilhouettePass::DrawAside(const vtkRenderState* state,
+  const std::vector<vtkProp*>& props, int samples, int margin,
+  const std::function<std::string(const vtkRenderState*)>& use)
+{
+  Internals& self = *this->Internal;
+  vtkRenderer* renderer = state->GetRenderer();
+  vtkOpenGLRenderWindow* window = po::windowOf(state);
+  const po::SilhouetteViewport tile = po::viewportOf(state);
+  const int width = tile.width + 2 * margin, height = tile.height + 2 * margin;
   const po::OpaqueActors opaque(self.Actors);
   const po::ShrunkCamera shrunk(renderer->GetActiveCamera(),
     static_cast<double>(tile.width) / width, static_cast<double>(tile.height) / height);
-  const bool spheres = po::hasOnlySpheres(props);
-  const int samples = spheres ? 1 : samplesThatFit(this->Samples, width, height);
 
   window->GetState()->PushFramebufferBindings();
   vtkNew<vtkOpenGLFramebufferObject> frame;
@@ -300,25 +295,24 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
   frame->PopulateFramebuffer(
     samples * width, samples * height, true, 1, VTK_UNSIGNED_CHAR, true, 32, 0, false);
   vtkRenderState inside(renderer);
-  inside.SetPropArrayAndCount(props.data(), static_cast<int>(props.size()));
+  inside.SetPropArrayAndCount(const_cast<vtkProp**>(props.data()), static_cast<int>(props.size()));
   inside.SetFrameBuffer(frame);
-  // A delegate may draw all of the renderer's props, as ParaView's does.
-  (self.Actors.empty() ? this->DelegatePass : self.ActorsPass.Get())->Render(&inside);
-  const bool traced = spheres && !po::tracedActorsOf(&inside, width, height).empty();
-  std::string error = traced ? this->FindInTracedFrames(&inside, margin)
-                             : this->FindInZBuffer(&inside, samples, margin);
+  // A delegate may draw all of the renderer's props, as ParaView's does, or composite them.
+  const bool byDelegate = self.Actors.empty() && !this->IsShared();
+  (byDelegate ? this->DelegatePass : self.ActorsPass.Get())->Render(&inside);
+  std::string error = use(&inside);
   window->GetState()->PopFramebufferBindings();
   return error;
 }
 
-std::string vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state)
+std::string vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state,
+  const po::SilhouetteImage& lines, po::SilhouetteSurroundings surroundings)
 {
   Internals& self = *this->Internal;
-  const po::SilhouetteViewport viewport = viewportOf(state);
-  po::SilhouetteSurroundings surroundings;
-  if (this->Darken || !self.Lines.inside.empty())
+  const po::SilhouetteViewport viewport = po::viewportOf(state);
+  if (this->Darken || !lines.inside.empty())
   {
-    std::string error = self.Painter.readColors(windowOf(state), viewport, self.Colors);
+    std::string error = self.Painter.readColors(po::windowOf(state), viewport, self.Colors);
     if (!error.empty())
     {
       return error;
@@ -329,9 +323,8 @@ std::string vtkDepthSilhouettePass::DrawLines(const vtkRenderState* state)
     }
     surroundings.rgba = self.Colors.data();
   }
-  surroundings.windowDepth = self.FrontDepth;
-  po::colorSilhouettes(self.Lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
-  return self.Painter.draw(windowOf(state), viewport, self.Margin, self.Pixels);
+  po::colorSilhouettes(lines, po::silhouetteStyleOf(*this), surroundings, self.Pixels);
+  return self.Painter.draw(po::windowOf(state), viewport, self.Margin, self.Pixels);
 }
 
 void vtkDepthSilhouettePass::ReleaseGraphicsResources(vtkWindow* window)
@@ -346,6 +339,8 @@ void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   po::print(os, indent, po::silhouetteParametersOf(*this));
   os << indent << "LineVisibility: " << this->LineVisibility << "\n";
+  os << indent << "Controller: " << this->Internal->Controller << "\n";
+  os << indent << "SharedBytes: " << this->SharedBytes << "\n";
   os << indent << "TileMargins: " << this->TileMargins << "\n";
   os << indent << "Color: " << this->Color[0] << ", " << this->Color[1] << ", " << this->Color[2]
      << "\n";

@@ -47,10 +47,20 @@
 #include "vtkSilhouetteParametersMacro.h"
 #include "vtkSilhouetteStyleMacro.h"
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 class vtkActor;
+class vtkMultiProcessController;
+class vtkProp;
+
+namespace po
+{
+struct SilhouetteImage;
+struct SilhouetteSurroundings;
+}
 
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkDepthSilhouettePass : public vtkImageProcessingPass
 {
@@ -84,6 +94,19 @@ public:
   vtkBooleanMacro(TileMargins, bool);
   ///@}
 
+  /// The processes whose pictures the delegate composites at the first of them, each with a part of
+  /// the scene. All of them must render together. Default: none, the process is alone.
+  ///
+  /// Where all that is opaque, or all that is chosen by AddActor(), are ray-traced spheres, lines
+  /// are those of one process that has all spheres, antialiased as there. Otherwise, and while
+  /// frames are coarser than the picture to be in time, they are lines of whole pixels from the
+  /// composited z-buffer; of chosen actors there are none then.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+
+  /// Bytes that this process has handed to others for the lines of the last picture.
+  vtkGetMacro(SharedBytes, vtkIdType);
+
   void Render(const vtkRenderState* state) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
@@ -92,17 +115,26 @@ protected:
   ~vtkDepthSilhouettePass() override;
 
   bool TileMargins = true;
+  vtkIdType SharedBytes = 0;
 
 private:
   vtkDepthSilhouettePass(const vtkDepthSilhouettePass&) = delete;
   void operator=(const vtkDepthSilhouettePass&) = delete;
 
   bool CheckParameters();
+  bool IsShared();
+  void RenderDelegate(const vtkRenderState* state);
+  std::string RenderAlone(const vtkRenderState* state, bool lines);
+  std::string RenderShared(const vtkRenderState* state, bool lines);
+  bool FindTogether(const vtkRenderState* state, bool lines, std::string& error);
+  std::string DrawAside(const vtkRenderState* state, const std::vector<vtkProp*>& props,
+    int samples, int margin, const std::function<std::string(const vtkRenderState*)>& use);
   std::string Prepare(const vtkRenderState* state);
   std::string FindInTracedFrames(const vtkRenderState* state, int margin);
   std::string FindInZBuffer(const vtkRenderState* state, int samples, int margin);
   std::string FindAround(const vtkRenderState* state);
-  std::string DrawLines(const vtkRenderState* state);
+  std::string DrawLines(const vtkRenderState* state, const po::SilhouetteImage& lines,
+    po::SilhouetteSurroundings surroundings);
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

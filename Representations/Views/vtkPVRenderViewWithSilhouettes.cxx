@@ -4,16 +4,27 @@
 #include "vtkCompositeRepresentation.h"
 #include "vtkDepthSilhouettePass.h"
 #include "vtkGeometryRepresentation.h"
+#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPVLODActor.h"
 #include "vtkPVSynchronizedRenderer.h"
-#include "vtkProcessModule.h"
 #include "vtkRayTracedSphereRepresentation.h"
+
+#include <algorithm>
 
 vtkStandardNewMacro(vtkPVRenderViewWithSilhouettes);
 
 namespace
 {
+bool isOfSpheres(vtkDataRepresentation* representation)
+{
+  if (auto* composite = vtkCompositeRepresentation::SafeDownCast(representation))
+  {
+    representation = composite->GetActiveRepresentation();
+  }
+  return vtkRayTracedSphereRepresentation::SafeDownCast(representation);
+}
+
 /// What a representation draws; null for one that draws no surface.
 vtkActor* actorOf(vtkDataRepresentation* representation)
 {
@@ -36,8 +47,10 @@ vtkPVRenderViewWithSilhouettes::vtkPVRenderViewWithSilhouettes()
   // Compositing must deliver depth as well as colour.
   this->SynchronizedRenderers->SetUseDepthBuffer(true);
   // Composited images have the renderer's size, whatever the frame they are put into.
-  vtkProcessModule* process = vtkProcessModule::GetProcessModule();
-  this->Silhouettes->SetTileMargins(!process || process->GetNumberOfLocalPartitions() == 1);
+  vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
+  const bool alone = !processes || processes->GetNumberOfProcesses() == 1;
+  this->Silhouettes->SetTileMargins(alone);
+  this->Silhouettes->SetController(alone ? nullptr : processes);
 }
 
 vtkPVRenderViewWithSilhouettes::~vtkPVRenderViewWithSilhouettes() = default;
@@ -72,14 +85,33 @@ bool vtkPVRenderViewWithSilhouettes::ChooseActors()
   return found;
 }
 
+/// Where several processes draw, only ray-traced spheres can be chosen, and a wall of displays
+/// shows what each process has composited.
+void vtkPVRenderViewWithSilhouettes::CheckSharing()
+{
+  if (!this->Silhouettes->GetController())
+  {
+    return;
+  }
+  if (this->InTileDisplayMode() || this->InCaveDisplayMode())
+  {
+    this->Silhouettes->SetController(nullptr);
+  }
+  const bool spheres = this->Silhouettes->GetController();
+  const auto cannot = std::remove_if(this->Chosen.begin(), this->Chosen.end(),
+    [spheres](vtkDataRepresentation* one) { return one && !(spheres && isOfSpheres(one)); });
+  if (cannot != this->Chosen.end())
+  {
+    this->Chosen.erase(cannot, this->Chosen.end());
+    vtkWarningMacro(
+      "SilhouetteRepresentations: where several processes draw, lines can be limited to "
+      "ray-traced spheres only, and not on a wall of displays. The others were left out.");
+  }
+}
+
 void vtkPVRenderViewWithSilhouettes::Render(bool interactive, bool skipRendering)
 {
-  if (!this->Chosen.empty() && !this->Silhouettes->GetTileMargins())
-  {
-    vtkWarningMacro("SilhouetteRepresentations: where several processes draw, all that is opaque "
-                    "has lines. Choose none, or render with one process.");
-    this->Chosen.clear();
-  }
+  this->CheckSharing();
   const bool visible = this->Silhouettes->GetLineVisibility();
   this->Silhouettes->SetLineVisibility(this->ChooseActors() && visible);
   this->Superclass::Render(interactive, skipRendering);

@@ -4,7 +4,8 @@
  * @brief ParaView's render view with lines where the depth jumps.
  *
  * Draws everything that the plain render view draws, and vtkDepthSilhouettePass on top. In parallel
- * the pass works on the composited image, without TileMargins. Each property is the pass' parameter
+ * the pass finds lines together with those of the other processes; on a wall of displays in the
+ * composited image of each, without TileMargins. Each property is the pass' parameter
  * of the same name without "Silhouette", with its meaning, range and default.
  */
 #ifndef vtkPVRenderViewWithSilhouettes_h
@@ -34,7 +35,8 @@ public:
   ///@{
   /// Representations that alone have lines, as far as they are visible, translucent ones too:
   /// surfaces, points and the like, and ray-traced spheres. Default: none, all that is opaque has
-  /// lines. Where several processes draw, none can be chosen, which is reported.
+  /// lines. Where several processes draw, only ray-traced spheres can be chosen; others are left
+  /// out, which is reported.
   void AddSilhouetteRepresentation(vtkDataRepresentation* representation);
   void RemoveAllSilhouetteRepresentations();
   ///@}
@@ -49,6 +51,7 @@ private:
   vtkPVRenderViewWithSilhouettes(const vtkPVRenderViewWithSilhouettes&) = delete;
   void operator=(const vtkPVRenderViewWithSilhouettes&) = delete;
 
+  void CheckSharing();
   bool ChooseActors();
 
   vtkNew<vtkDepthSilhouettePass> Silhouettes;

@@ -14,6 +14,7 @@
 #include "SilhouetteRims.h"
 #include "SphereRenderer.h"
 #include "SyntheticSpheres.h"
+#include "TracedDepth.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

@@ -4,6 +4,7 @@
 #include "SilhouetteRims.h"
 #include "SphereRenderer.h"
 #include "TestViews.h"
+#include "TracedDepth.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -12,13 +12,9 @@ import tempfile
 
 import images
 import numpy
+import pieces
 import servers
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
-DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Data")
 PIECES = 4
 COUNTERS = ("NumberOfParticles", "NumberOfTexels", "NumberOfParticlesDark", "NumberOfDirections")
 
@@ -42,7 +38,6 @@ view = CreateView("RenderViewWithSilhouettes")
 view.ViewSize = [300, 200]
 view.OrientationAxesVisibility = 0
 view.UseFXAA = 0
-view.SilhouetteSamples = 1  # lines of several processes are not smooth
 if port:
     view.RemoteRenderThreshold = {threshold}
 display = Show(baked, view)
@@ -57,47 +52,6 @@ with open(r"{name}.json", "w") as file:
 if port:
     Disconnect()
 """
-
-
-def part_of(whole, mask):
-    """The points of `whole` where the mask is true, with their arrays."""
-    def chosen(array):
-        copy = numpy_to_vtk(vtk_to_numpy(array)[mask], deep=True)
-        copy.SetName(array.GetName())
-        return copy
-
-    points = vtkPoints()
-    points.SetData(chosen(whole.GetPoints().GetData()))
-    part = vtkPolyData()
-    part.SetPoints(points)
-    data = whole.GetPointData()
-    for i in range(data.GetNumberOfArrays()):
-        part.GetPointData().AddArray(chosen(data.GetArray(i)))
-    return part
-
-
-def write_pieces(folder):
-    """The molecule as a file of pieces, which processes share among them; the path."""
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(os.path.join(DATA, "molecule.vtp"))
-    reader.Update()
-    whole = reader.GetOutput()
-    count = whole.GetNumberOfPoints()
-    for k in range(PIECES):
-        writer = vtkXMLPolyDataWriter()
-        writer.SetInputData(part_of(whole, numpy.arange(count) * PIECES // count == k))
-        writer.SetDataModeToBinary()
-        writer.SetFileName(os.path.join(folder, f"piece{k}.vtp"))
-        writer.Write()
-    arrays = "".join(f'<PDataArray type="Float32" Name="{name}"/>' for name in ("radius", "charge"))
-    pieces = "".join(f'<Piece Source="piece{k}.vtp"/>' for k in range(PIECES))
-    path = os.path.join(folder, "molecule.pvtp")
-    with open(path, "w", encoding="utf-8") as file:
-        file.write('<VTKFile type="PPolyData" version="1.0"><PPolyData GhostLevel="0">'
-                   f"<PPointData>{arrays}</PPointData>"
-                   '<PPoints><PDataArray type="Float32" NumberOfComponents="3"/></PPoints>'
-                   f"{pieces}</PPolyData></VTKFile>")
-    return path
 
 
 def run_session(command, folder, name, port=0, threshold=0):
@@ -122,7 +76,9 @@ def main():
     pvpython, pvbatch, pvserver, mpiexec = sys.argv[1:5]
     two = [mpiexec, "-n", "2"]
     with tempfile.TemporaryDirectory() as folder:
-        write_pieces(folder)
+        whole = pieces.molecule()
+        piece = numpy.arange(whole.GetNumberOfPoints()) * PIECES // whole.GetNumberOfPoints()
+        pieces.write(folder, "molecule", whole, [piece == k for k in range(PIECES)])
         reference = run_session([pvpython], folder, "alone")
         others = [run_session([*two, pvbatch], folder, "pvbatch-2"),
                   run_session([mpiexec, "-n", "4", pvbatch], folder, "pvbatch-4")]

@@ -72,7 +72,6 @@ view = CreateView("RenderViewWithSilhouettes")
 view.ViewSize = [300, 240]
 view.OrientationAxesVisibility = 0
 view.UseFXAA = 0
-view.SilhouetteSamples = 1
 view.SilhouetteThreshold = 2
 display = Show(particles, view)
 display.SetRepresentationType("Ray-Traced Spheres")

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SharedDepth.h"
+
+#include "SharedTiles.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace po
+{
+namespace
+{
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
+/// Pixels of a tile.
+struct TilePixels
+{
+  int x, y, columns, rows;
+
+  TilePixels(int tile, int width, int height)
+    : x(tile % depthTiles(width) * DepthTileSize)
+    , y(tile / depthTiles(width) * DepthTileSize)
+    , columns(std::min(DepthTileSize, width - x))
+    , rows(std::min(DepthTileSize, height - y))
+  {
+  }
+
+  template <typename Function>
+  void forEachRow(int width, const Function& f) const
+  {
+    for (int j = y; j < y + rows; ++j)
+    {
+      f(static_cast<std::ptrdiff_t>(j) * width + x);
+    }
+  }
+};
+
+/// Where the ray through the centre of a pixel, which shows the sphere, meets it, as t.
+double distanceTo(const Sphere& sphere, const PrimaryRayFunctions& f, int x, int y)
+{
+  const double clipX = f.clipX(x + 0.5), clipY = f.clipY(y + 0.5);
+  const Vec3d direction = f.localDirection.at(clipX, clipY);
+  const Vec3d toCenter = sphere.center().as<double>() - f.localOrigin.at(clipX, clipY);
+  const double square = dot(direction, direction);
+  const double along = dot(toCenter, direction) / square;
+  const Vec3d beside = toCenter - along * direction;
+  const double radius = sphere.radius;
+  const double half = std::sqrt(std::max(0.0, radius * radius - dot(beside, beside)) / square);
+  const double worldLength = f.worldPerLocal > 0 ? f.worldPerLocal * std::sqrt(square)
+                                                 : length(f.worldDirection.at(clipX, clipY));
+  return (along - half) * worldLength;
+}
+
+PrimaryRays raysFor(const Camera& camera, const Matrix4& localToWorld)
+{
+  const auto rays = PrimaryRays::make(camera, localToWorld);
+  if (!rays)
+  {
+    throw std::runtime_error("Another process has spheres whose placement is singular.");
+  }
+  return *rays;
+}
+}
+
+void SharedDepth::clear(int width, int height)
+{
+  if (frame_.width != width || frame_.height != height)
+  {
+    const auto pixels = static_cast<std::size_t>(width) * height;
+    frame_.width = width;
+    frame_.height = height;
+    frame_.t.assign(pixels, Infinity);
+    frame_.sphere.assign(pixels, SphereScene::None);
+    filled_.clear();
+  }
+  for (const int tile : filled_)
+  {
+    const TilePixels pixels(tile, width, height);
+    pixels.forEachRow(width,
+      [&](std::ptrdiff_t first)
+      {
+        std::fill_n(frame_.t.begin() + first, pixels.columns, Infinity);
+        std::fill_n(frame_.sphere.begin() + first, pixels.columns, SphereScene::None);
+      });
+  }
+  filled_.clear();
+  rays_.clear();
+}
+
+void SharedDepth::assemble(
+  const Camera& camera, const ProcessGroup::Words& words, std::vector<DepthRange> ranges)
+{
+  clear(camera.width, camera.height);
+  frame_.tiles = std::move(ranges);
+  SharedTiles arrived = readTiles(words);
+  for (const Matrix4& placement : arrived.localToWorld)
+  {
+    rays_.push_back(raysFor(camera, placement));
+  }
+  // Of pixels with the same depth the first process has its way.
+  std::stable_sort(arrived.tiles.begin(), arrived.tiles.end(),
+    [](const SharedTile& a, const SharedTile& b) { return a.tile < b.tile; });
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < arrived.tiles.size(); ++i)
+  {
+    if (i == 0 || arrived.tiles[i].tile != arrived.tiles[i - 1].tile)
+    {
+      starts.push_back(i);
+      filled_.push_back(arrived.tiles[i].tile);
+    }
+  }
+  starts.push_back(arrived.tiles.size());
+  tbb::parallel_for(std::size_t(1), starts.size(),
+    [&](std::size_t i)
+    { setTile(arrived, &arrived.tiles[starts[i - 1]], arrived.tiles.data() + starts[i]); });
+  firstSpheres_ = std::move(arrived.firstSphere);
+  spheres_ = std::move(arrived.spheres);
+  if (!rays_.empty())
+  {
+    merged_.emplace(std::vector<TracedLayer>{ { frame_, rays_.front(), spheres_ } });
+  }
+}
+
+void SharedDepth::setTile(
+  const SharedTiles& arrived, const SharedTile* first, const SharedTile* last)
+{
+  const TilePixels pixels(first->tile, frame_.width, frame_.height);
+  std::for_each(first, last, [&](const SharedTile& tile) { addTo(arrived, tile); });
+  DepthRange range;
+  pixels.forEachRow(frame_.width,
+    [&](std::ptrdiff_t start)
+    {
+      for (int i = 0; i < pixels.columns; ++i)
+      {
+        range.add(frame_.t[static_cast<std::size_t>(start + i)]);
+      }
+    });
+  frame_.tiles[static_cast<std::size_t>(first->tile)] = range;
+}
+
+void SharedDepth::addTo(const SharedTiles& arrived, const SharedTile& tile)
+{
+  const TilePixels pixels(tile.tile, frame_.width, frame_.height);
+  const PrimaryRayFunctions& rays = rays_[tile.layer].functions();
+  const std::uint32_t firstSphere = arrived.firstSphere[tile.layer];
+  const std::uint8_t* run = tile.runs;
+  for (int begin = 0; begin < pixels.columns * pixels.rows; run += 2)
+  {
+    const int end = begin + run[1] + 1;
+    if (tile.showsSphere(run[0]))
+    {
+      const std::uint32_t number = firstSphere + tile.spheres[run[0]];
+      for (int k = begin; k < end; ++k)
+      {
+        const int x = pixels.x + k % pixels.columns, y = pixels.y + k / pixels.columns;
+        const auto at = static_cast<std::size_t>(y) * frame_.width + x;
+        const double t = distanceTo(arrived.spheres[number], rays, x, y);
+        if (t < frame_.t[at])
+        {
+          frame_.t[at] = t;
+          frame_.sphere[at] = number;
+        }
+      }
+    }
+    begin = end;
+  }
+}
+
+SphereDepth::NumberedSphere SharedDepth::sphereOf(std::uint32_t number) const
+{
+  const auto next = std::upper_bound(firstSpheres_.begin(), firstSpheres_.end(), number);
+  return { static_cast<std::size_t>(next - firstSpheres_.begin() - 1), &spheres_[number] };
+}
+
+float SharedDepth::windowDepth(int x, int y) const
+{
+  const double t = frame_.t[static_cast<std::size_t>(y) * frame_.width + x];
+  if (t == Infinity)
+  {
+    return 2;
+  }
+  const PrimaryRay ray = rays_.front().at(x + 0.5, y + 0.5);
+  return static_cast<float>(ray.windowDepth(t / ray.worldPerLocal));
+}
+}

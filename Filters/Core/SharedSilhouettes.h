@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef po_SharedSilhouettes_h
+#define po_SharedSilhouettes_h
+
+#include "SharedDepth.h"
+#include "SharedLines.h"
+#include "SilhouetteRule.h"
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace po
+{
+/// Bytes that one process has handed to others for one picture.
+struct SharedBytes
+{
+  std::size_t ranges = 0; ///< of tiles
+  std::size_t depths = 0;
+  std::size_t lines = 0;
+
+  [[nodiscard]] std::size_t all() const { return ranges + depths + lines; }
+};
+
+/// The silhouettes of spheres that are divided over processes in any way: those that one process
+/// with all spheres would find, strengths rounded to 1/65535.
+///
+/// Each process has traced its own spheres, in the same view. All tell the depth range of each
+/// tile; a tile that can have no edge, or whose spheres another process hides for certain, needs
+/// nothing more. The rows of the other tiles are divided over the processes, each of which gets
+/// what all see there, finds the lines in what is nearest, and hands them on. So what travels is
+/// sparse, each process has its share of the work, and none needs all depths.
+///
+/// Keeps its memory from picture to picture.
+class SharedSilhouettes
+{
+public:
+  /// All processes must call it, with the same view and rule.
+  /// @param own frames that this process has traced, maybe none; all of the camera's size
+  /// @param destination that gets the lines; negative: all
+  void find(const std::vector<TracedLayer>& own, const Camera& camera, const SilhouetteRule& rule,
+    const ProcessGroup& group, int destination);
+
+  /// Of the last picture; empty elsewhere than at the destination.
+  [[nodiscard]] const PlacedLines& lines() const { return lines_; }
+
+  [[nodiscard]] const SharedBytes& bytes() const { return bytes_; }
+
+private:
+  /// Tiles along the sides of the picture.
+  [[nodiscard]] int columns() const;
+  [[nodiscard]] int rows() const;
+  [[nodiscard]] std::pair<int, int> rowsOf(int process) const;
+  std::vector<DepthRange> shareRanges(
+    const std::vector<TracedLayer>& own, const ProcessGroup& group);
+  [[nodiscard]] std::vector<int> searchedTiles(
+    const std::vector<DepthRange>& ranges, const SilhouetteRule& rule) const;
+  ProcessGroup::Words exchangeTiles(const std::vector<TracedLayer>& own,
+    const std::vector<DepthRange>& ranges, const std::vector<int>& searched,
+    const ProcessGroup& group);
+
+  int width_ = 0, height_ = 0;
+  std::vector<int> rows_; ///< first row of tiles of each process, and the end
+  SharedDepth depth_;
+  SilhouetteImage found_;
+  PlacedLines lines_;
+  SharedBytes bytes_;
+};
+}
+
+#endif

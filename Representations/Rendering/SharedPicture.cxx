@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SharedPicture.h"
+
+#include "ControllerGroup.h"
+#include "RenderState.h"
+#include "SphereRenderer.h"
+#include "vtkRayTracedSphereMapper.h"
+
+#include "vtkActor.h"
+#include "vtkPolyData.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+namespace po
+{
+OwnFrames framesOf(const std::vector<vtkProp*>& props, vtkRenderer* renderer, int width, int height)
+{
+  OwnFrames own{ {}, cameraOf(renderer, width, height), true };
+  for (vtkProp* prop : props)
+  {
+    auto* actor = vtkActor::SafeDownCast(prop);
+    auto* mapper = actor ? vtkRayTracedSphereMapper::SafeDownCast(actor->GetMapper()) : nullptr;
+    vtkPolyData* points = mapper && actor->GetVisibility() ? mapper->GetInput() : nullptr;
+    if (!points || points->GetNumberOfPoints() == 0)
+    {
+      continue;
+    }
+    const TracedActor traced = tracedActorOf(actor, width, height);
+    if (traced.renderer && traced.renderer->isCurrent(own.camera, placementOf(actor)))
+    {
+      own.actors.push_back(traced);
+    }
+    else
+    {
+      own.complete = false;
+    }
+  }
+  return own;
+}
+
+std::optional<SilhouetteScale> agreedScale(const SilhouetteOffer& own, const ProcessGroup& group)
+{
+  constexpr std::size_t Words = 4;
+  const auto size =
+    static_cast<std::uint64_t>(own.width) << 32U | static_cast<std::uint64_t>(own.height);
+  const ProcessGroup::Words all = group.gather(
+    { own.canShare ? 1U : 0U, size, wordOf(own.scale.meanRadius), wordOf(own.scale.depthRange) });
+  SilhouetteScale scale;
+  bool agreed = true;
+  for (std::size_t at = 0; at < all.size(); at += Words)
+  {
+    agreed = agreed && all[at] == 1 && all[at + 1] == all[1];
+    scale.meanRadius = std::max(scale.meanRadius, doubleOf(all[at + 2]));
+    scale.depthRange = std::max(scale.depthRange, doubleOf(all[at + 3]));
+  }
+  return agreed ? std::optional(scale) : std::nullopt;
+}
+
+std::string findTogether(const OwnFrames& own, const SilhouetteRule& rule,
+  const ProcessGroup& group, int destination, SharedSilhouettes& silhouettes)
+{
+  std::string error;
+  const auto find = [&]
+  {
+    try
+    {
+      silhouettes.find(layersOf(own.actors), own.camera, rule, group, destination);
+    }
+    catch (const std::bad_alloc&)
+    {
+      throw std::runtime_error("Memory ran out for lines of several processes.");
+    }
+  };
+  static_cast<void>(runTogether(group, find, error));
+  return error;
+}
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkDepthSilhouettePassInternals_h
+#define vtkDepthSilhouettePassInternals_h
+
+#include "SharedSilhouettes.h"
+#include "SilhouettePainter.h"
+#include "vtkDepthSilhouettePass.h"
+
+#include "vtkActor.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkRenderState.h"
+#include "vtkRenderStepsPass.h"
+#include "vtkSmartPointer.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace po
+{
+/// Where the renderer draws in the frame buffer that is bound.
+[[nodiscard]] SilhouetteViewport viewportOf(const vtkRenderState* state);
+
+[[nodiscard]] vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state);
+}
+
+/// What a pass keeps from one picture to the next.
+struct vtkDepthSilhouettePass::Internals
+{
+  po::SilhouettePainter Painter;
+  std::vector<vtkSmartPointer<vtkActor>> Actors; ///< that have lines; none: all
+  vtkNew<vtkRenderStepsPass> ActorsPass;         ///< draws them alone
+  po::SilhouetteScale Scale;                     ///< of the last whole picture
+  bool HasScale = false;
+  std::vector<float> ZBuffer, Distances, WindowDepth;
+  const float* FrontDepth = nullptr; ///< what lines are hidden by; null: nothing
+  std::vector<std::uint8_t> Colors;
+  po::SilhouetteImage Lines;
+  po::SilhouettePixels Pixels;
+  int Margin = 0; ///< pixels of the lines around the viewport
+  vtkSmartPointer<vtkMultiProcessController> Controller;
+  po::SharedSilhouettes Shared;
+
+  /// The scale of a whole picture, or, for a tile, that of the last whole picture.
+  const po::SilhouetteScale& scale(const po::SilhouetteScale& ofThis, bool whole)
+  {
+    if (whole || !this->HasScale)
+    {
+      this->Scale = ofThis;
+      this->HasScale = whole;
+    }
+    return this->Scale;
+  }
+};
+
+#endif
