@@ -183,6 +183,8 @@ private:
 
 int sweepDirectionsForSamples(int samplesPerTexel)
 {
+  // Directions at the error of jittered rays, between measured numbers of directions: 49 rays, 49
+  // (pack) to 107 (gas). Exponent: between those of the error of rays and of directions.
   const double directions = 112 * std::pow(samplesPerTexel / 49.0, 0.9);
   const double blocks = std::ceil(directions / DirectionsPerBlock);
   return static_cast<int>(
@@ -209,9 +211,10 @@ void SweepEstimator::sweepOnce(const BakeScene& scene, const std::vector<unsigne
   const int directions = options_.directions > 0
     ? options_.directions
     : sweepDirectionsForSamples(settings.samplesPerTexel);
-  ProgressiveSweep sweep(scene, particles, settings, options_.skips, ProgressiveSweep::Watch::Some,
-    options_.outOfCore ? ProgressiveSweep::Records::OutOfCore
-                       : ProgressiveSweep::Records::InMemory);
+  const auto records = options_.outOfCore ? ProgressiveSweep::Records::OutOfCore
+                                          : ProgressiveSweep::Records::InMemory;
+  ProgressiveSweep sweep(scene, particles, settings,
+    { options_.skips, ProgressiveSweep::Watch::Some, records, options_.smooth });
   sweep.refine(directions, progress);
   report_.directions = sweep.directions();
   if (!progress.aborted())

@@ -30,8 +30,8 @@ METHODS = {
     "Sweep": [16, 32, 64, 128, 256, 512, 1024],   # directions
     "Embree": [32, 64, 128, 256, 512]}            # directions
 TINY_LEVELS = {"Reference": [4, 49], "Sweep": [16, 256], "Embree": [32, 256]}
-USUAL_LEVELS = {"Reference": 49, "Sweep": 144, "Embree": 144}  # what the filter takes by default
-SWEEP = {"Sweep": 144}
+USUAL_LEVELS = {"Reference": 49, "Sweep": 112, "Embree": 112}  # what the filter takes by default
+SWEEP = {"Sweep": 112}
 # Particles whose time is taken, where it is not the program's own number. Embree prepares its
 # directions once for all: on few particles that would count for too much.
 MEASURED = {"Embree": 2048}

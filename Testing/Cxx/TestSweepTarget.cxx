@@ -27,14 +27,14 @@ TEST(SweepEstimator, KeepsThePromiseOfATargetError)
   for (const po::SyntheticFamily family : { po::SyntheticFamily::Pack, po::SyntheticFamily::Overlap,
          po::SyntheticFamily::Gas, po::SyntheticFamily::Shell, po::SyntheticFamily::Foam })
   {
-    scenes.push_back(syntheticScene(family, 40));
+    scenes.push_back(syntheticScene(family, 27));
   }
   int failures = 0;
   for (const std::vector<po::Sphere>& spheres : scenes)
   {
     const po::SphereCloud cloud = cloudOf(spheres);
     const po::BakeScene scene(cloud);
-    po::BakeSettings settings = floatSettings(16, 5000);
+    po::BakeSettings settings = floatSettings(16, 4000);
     settings.seed = 77;
     const Estimates judge = estimateAll(po::ReferenceEstimator(), scene, settings);
     for (const double target : { 0.05, 0.025, 0.0125 })
