@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepScene.h"
 
-#include "MortonCurve.h"
+#include "BrickOrder.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -44,19 +44,6 @@ struct Place
     return numbers(*this) < numbers(other);
   }
 };
-
-/// Through the bounding box of a brick.
-MortonCurve curveThrough(const Brick& brick)
-{
-  Vec3f low = brick.spheres->center();
-  Vec3f high = low;
-  for (const Sphere* s = brick.spheres; s != brick.spheres + brick.count; ++s)
-  {
-    low = { std::min(low.x, s->x), std::min(low.y, s->y), std::min(low.z, s->z) };
-    high = { std::max(high.x, s->x), std::max(high.y, s->y), std::max(high.z, s->z) };
-  }
-  return { low, std::max({ high.x - low.x, high.y - low.y, high.z - low.z }) };
-}
 
 /// The octave of a radius, counted down from the largest: equal radii must never fall on both sides
 /// of an edge.
