@@ -13,8 +13,11 @@ constexpr double SpheresPerTile = 4096;
 constexpr float SmallestTileWidth = 16;
 constexpr float LargestTileWidth = 60; ///< so that the cells stay small
 constexpr double MostTilesPerSphere = 4;
-/// Spheres a patch should hold: 10 MB of memory.
-constexpr double SpheresPerPatch = 1 << 17;
+/// Spheres a patch should hold: 100 bytes each. The more patches there are the more often spheres
+/// near their edges, and the bounds of all, are looked at.
+constexpr double WantedPatches = 16;
+constexpr double FewestPerPatch = 1 << 16;
+constexpr double MostPerPatch = 1 << 18;
 }
 
 void DepthTiles::layOut(const ReceiverExtent& receivers, float reach)
@@ -41,14 +44,14 @@ void DepthTiles::layOut(const ReceiverExtent& receivers, float reach)
   perWidth_ = 1 / width_;
   columns_ = 1 + static_cast<int>(extentX * perWidth_);
   rows_ = 1 + static_cast<int>(extentY * perWidth_);
-  choosePatches(receivers.count);
+  choosePatches(count);
 }
 
-void DepthTiles::choosePatches(std::size_t receivers)
+void DepthTiles::choosePatches(double receivers)
 {
-  const double tiles = static_cast<double>(columns_) * rows_;
-  const double perTile = std::max(1.0, static_cast<double>(receivers) / tiles);
-  patchSide_ = std::max(1, static_cast<int>(std::sqrt(SpheresPerPatch / perTile)));
+  const double perTile = std::max(1.0, receivers / (static_cast<double>(columns_) * rows_));
+  const double perPatch = std::clamp(receivers / WantedPatches, FewestPerPatch, MostPerPatch);
+  patchSide_ = std::max(1, static_cast<int>(std::sqrt(perPatch / perTile)));
 }
 
 std::size_t DepthTiles::patches() const
@@ -105,9 +108,14 @@ bool DepthTiles::mayReach(float x, float y, float distance, float radius) const
 
 void DepthTiles::add(const ProjectedSphere& sphere, bool sameBand)
 {
-  if (!tilesWithin(sphere.x, sphere.y, sphere.radius + reach_).isEmpty())
+  const Range range = tilesWithin(sphere.x, sphere.y, sphere.radius + reach_);
+  if (!range.isEmpty())
   {
-    members_.push_back({ sphere, sameBand });
+    const auto inPatch = [](int tile, int first)
+    { return static_cast<std::uint16_t>(tile - first); };
+    members_.push_back(
+      { sphere, sameBand, inPatch(range.left, patch_.left), inPatch(range.right, patch_.left),
+        inPatch(range.bottom, patch_.bottom), inPatch(range.top, patch_.bottom) });
   }
 }
 
@@ -116,14 +124,11 @@ void DepthTiles::add(const ProjectedSphere& sphere, bool sameBand)
 template <typename Action>
 void DepthTiles::visitTiles(const Member& m, Action action) const
 {
-  const Range range = tilesWithin(m.sphere.x, m.sphere.y, m.sphere.radius + reach_);
-  const int columns = patch_.right - patch_.left;
-  for (int row = range.bottom; row < range.top; ++row)
+  const auto columns = static_cast<std::size_t>(patch_.right - patch_.left);
+  for (std::size_t row = m.bottom; row < m.top; ++row)
   {
-    const int start = (row - patch_.bottom) * columns - patch_.left;
-    for (int column = range.left; column < range.right; ++column)
+    for (std::size_t tile = row * columns + m.left; tile < row * columns + m.right; ++tile)
     {
-      const auto tile = static_cast<std::size_t>(start + column);
       if (hasReceivers_[tile] != 0)
       {
         action(tile);

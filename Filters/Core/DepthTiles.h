@@ -95,6 +95,7 @@ private:
   {
     ProjectedSphere sphere;
     bool sameBand;
+    std::uint16_t left, right, bottom, top; ///< half-open range of tiles, counted in the patch
   };
 
   /// Half-open range of tiles.
@@ -105,7 +106,7 @@ private:
     [[nodiscard]] bool isEmpty() const { return left >= right || bottom >= top; }
   };
 
-  void choosePatches(std::size_t receivers);
+  void choosePatches(double receivers);
   [[nodiscard]] std::size_t homeOf(const ProjectedSphere& sphere) const;
   [[nodiscard]] Range tilesWithin(float x, float y, float reach) const;
   template <typename Action>
