@@ -95,7 +95,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   const BakeSettings& settings, const Options& options)
   : settings_(settings)
   , particles_(std::move(particles))
-  , order_(scene.rays.set())
+  , order_(scene.set())
   , texels_(settings.textureResolution)
   , watched_(watchedSpheres(order_, particles_, settings.seed, options.watch))
   , alone_(aloneFlags(scene, order_,
