@@ -106,7 +106,8 @@ public:
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const = 0;
 
-  /// RMS error of linear visibility of the last estimate, up to three times too large; 0 if not known.
+  /// RMS error of linear visibility of the last estimate, up to three times too large; 0 if not
+  /// known.
   [[nodiscard]] virtual double estimatedError() const { return 0; }
 
   /// Upper bound of the working memory, in bytes a texel of all particles.

@@ -72,8 +72,8 @@ public:
 
   /// Squared errors of linear visibility, from the spread of four subsets of the directions: of the
   /// watched particles, with Watch::All in the order of the list. Subsets of one lattice complement
-  /// each other: with Spread::Evenly the estimate is too large, up to three times where much is hidden. 0
-  /// where a subset is still empty.
+  /// each other: with Spread::Evenly the estimate is too large, up to three times where much is
+  /// hidden. 0 where a subset is still empty.
   [[nodiscard]] std::vector<SquaredError> squaredErrors() const;
 
   /// The RMS of these, weighted by area.
