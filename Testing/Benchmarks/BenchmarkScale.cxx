@@ -15,6 +15,7 @@
 #include "SyntheticSpheres.h"
 
 #include "vtkDataArray.h"
+#include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
@@ -94,6 +95,7 @@ double outputMegabytes(vtkPolyData& data)
   return (table + 8.0 * static_cast<double>(data.GetNumberOfPoints())) / Megabyte;
 }
 
+/// Ends the program where the filter has reported an error.
 void execute(vtkSphereAmbientOcclusion* filter, const char* label, double scene)
 {
   const double before = resident();
@@ -102,6 +104,10 @@ void execute(vtkSphereAmbientOcclusion* filter, const char* label, double scene)
   const auto wall = std::chrono::steady_clock::now();
   filter->Modified();
   filter->Update();
+  if (filter->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    std::exit(1);
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - wall;
   const double cpuSeconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   const double peak = po::statusMegabytes("VmHWM") - before;
