@@ -67,6 +67,7 @@ double memoryOf(const BakeWork& work)
     {
       SweepOptions options;
       options.targetError = work.targetError;
+      options.outOfCore = work.outOfCore;
       return bakeMemory(work.particles, work.settings, SweepEstimator(options));
     }
   }

@@ -19,6 +19,7 @@ struct BakeWork
   int method = 0; ///< vtkSphereAmbientOcclusion::MethodType; Automatic counts as Sweep
   BakeSettings settings;
   double targetError = 0;
+  bool outOfCore = false;
 };
 
 struct BakeCost

@@ -151,6 +151,7 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
   }
   makeTask(input, std::move(others.occluders), idOfPoint, settings, group);
   input.task.targetError = filter.GetTargetError();
+  input.task.outOfCore = filter.GetOutOfCore();
   return input;
 }
 }

@@ -94,7 +94,8 @@ void add(Digest& digest, const Occluders& occluders)
 
 void add(Digest& digest, const BakeTask& task)
 {
-  const auto& [cloud, receivers, occluders, settings, targetError] = task;
+  const auto& [cloud, receivers, occluders, settings, targetError, outOfCore] = task;
+  static_cast<void>(outOfCore); // the bits are the same
   add(digest, cloud);
   digest.add(receivers);
   add(digest, occluders);

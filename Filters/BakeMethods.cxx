@@ -24,19 +24,12 @@ double memoryOf(const BakeTask& task, const OcclusionEstimator& estimator)
     occluderMemory(foreign + task.occluders.spheres.size(), task.occluders.mesh.triangles.size());
 }
 
-/// A sweep in as few parts as the memory allows, up to where Embree is faster: that takes 6 times
-/// as long as one sweep at least.
+/// A sweep in memory, or out of core where the user wants that or memory would not do.
 SweepEstimator sweepFor(const BakeTask& task)
 {
-  constexpr int MostParts = 6;
-  const double available = freeMemory();
   SweepOptions options;
   options.targetError = task.targetError;
-  const int most = task.targetError > 0 ? 1 : MostParts;
-  while (options.parts < most && memoryOf(task, SweepEstimator(options)) > available)
-  {
-    ++options.parts;
-  }
+  options.outOfCore = task.outOfCore || memoryOf(task, SweepEstimator(options)) > freeMemory();
   return SweepEstimator(options);
 }
 

@@ -37,6 +37,7 @@ struct BakeTask
   Occluders occluders;             ///< of all processes, as far as they matter here
   BakeSettings settings;
   double targetError = 0;
+  bool outOfCore = false; ///< Sweep keeps what it sees in a temporary file
 };
 
 /// The numbers in ascending order, each once.

@@ -214,6 +214,7 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "StorageError: " << this->StorageError << "\n"
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "IdArray: " << (this->IdArray ? this->IdArray : "(automatic)") << "\n"
+     << indent << "OutOfCore: " << this->OutOfCore << "\n"
      << indent << "UseCache: " << this->UseCache << "\n"
      << indent << "CacheDirectory: " << (this->CacheDirectory ? this->CacheDirectory : "") << "\n"
      << indent << "CacheSizeLimit: " << this->CacheSizeLimit << "\n";

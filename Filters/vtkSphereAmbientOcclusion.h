@@ -347,6 +347,18 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Sweep keeps what it sees of the particles in a temporary file, instead of some KiB of memory a
+   * particle [off]. Where memory would not do it does so anyway, and the textures have the same
+   * bits. The file is in the folder that TMPDIR names, else /tmp, and takes up to 2.5 KiB a
+   * particle at the default resolution and quality. With TargetError all is kept in memory.
+   */
+  vtkSetMacro(OutOfCore, bool);
+  vtkGetMacro(OutOfCore, bool);
+  vtkBooleanMacro(OutOfCore, bool);
+  ///@}
+
+  ///@{
   /// Keep bakes in a cache and load from it [off].
   vtkSetMacro(UseCache, bool);
   vtkGetMacro(UseCache, bool);
@@ -452,6 +464,7 @@ private:
   double StorageError = 0.01;
   int Seed = 1;
   char* IdArray = nullptr;
+  bool OutOfCore = false;
   bool UseCache = false;
   char* CacheDirectory = nullptr;
   int CacheSizeLimit = 4096;

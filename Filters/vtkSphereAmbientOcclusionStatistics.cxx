@@ -152,6 +152,7 @@ const char* vtkSphereAmbientOcclusion::GetBakeEstimate()
     work.settings.light.emplace();
   }
   work.targetError = this->TargetError;
+  work.outOfCore = this->OutOfCore;
   const vtkNew<vtkBakeResources> resources;
   this->Impl->Estimate = po::describe(po::estimateCost(work), work.particles,
     resources->GetNumberOfCores(), resources->GetFreeMemory());

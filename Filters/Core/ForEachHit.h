@@ -2,25 +2,24 @@
 #ifndef po_ForEachHit_h
 #define po_ForEachHit_h
 
+#include "ForEachTile.h"
 #include "FrameTracer.h"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace po
 {
-/// Calls f(x, y, pixel) for all pixels that show a sphere, rows in parallel.
+/// Calls f(x, y, pixel) for all pixels that show a sphere, tiles in parallel.
 template <typename Function>
 void forEachHit(const TracedFrame& frame, const Function& f)
 {
-  tbb::parallel_for(tbb::blocked_range<int>(0, frame.height),
-    [&](const tbb::blocked_range<int>& rows)
+  forEachTile(frame.width, frame.height,
+    [&](const PixelRange& tile)
     {
-      for (int y = rows.begin(); y < rows.end(); ++y)
+      for (int y = tile.y0; y < tile.y1; ++y)
       {
-        std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width);
-        for (int x = 0; x < frame.width; ++x, ++pixel)
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width);
+        for (int x = tile.x0; x < tile.x1; ++x)
         {
+          const std::size_t pixel = row + static_cast<std::size_t>(x);
           if (frame.sphere[pixel] != SphereScene::None)
           {
             f(x, y, pixel);
@@ -29,7 +28,6 @@ void forEachHit(const TracedFrame& frame, const Function& f)
       }
     });
 }
-
 }
 
 #endif

@@ -24,16 +24,21 @@ struct FrameSettings
 /// What each pixel of a window sees, row by row from the lower left corner.
 struct TracedFrame
 {
+  static constexpr float NoDepth = 2;
+
   int width = 0;
   int height = 0;
   double sampleX = 0.5, sampleY = 0.5; ///< as in FrameSettings
   std::vector<double> t;             ///< distance along the ray in world units, +infinity: nothing
   std::vector<std::uint32_t> sphere; ///< index into the scene's spheres, or SphereScene::None
   std::vector<Vec3f> normal;         ///< local outward unit normal of a hit, otherwise 0
-  std::vector<float> windowDepth;    ///< 0 at the near and 1 at the far plane, 2: nothing
+  std::vector<float> windowDepth;    ///< 0 at the near and 1 at the far plane, NoDepth: nothing
   std::vector<DepthRange> tiles;     ///< range of t in each tile of DepthTileSize pixels
 
   [[nodiscard]] std::size_t pixels() const { return sphere.size(); }
+
+  /// Makes pixels show nothing.
+  void clear(const PixelRange& range);
 };
 
 /// What a frame cost.

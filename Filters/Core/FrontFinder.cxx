@@ -8,10 +8,6 @@ namespace po
 {
 namespace
 {
-/// A single-precision hit this many radii from its start may be out of order with its neighbours;
-/// 2^-24 * 4096 is some 1/4000 of a radius.
-constexpr double ReliableRadii = 4096;
-
 RTCRayHit makeQuery(const PrimaryRay& ray, double start)
 {
   const Vec3f origin = (ray.origin + start * ray.direction).as<float>();
@@ -97,11 +93,6 @@ bool intersectExactly(const PrimaryRay& ray, const Sphere& sphere, std::uint32_t
   return true;
 }
 
-bool isDoubtful(double way, double radius)
-{
-  return way > ReliableRadii * radius;
-}
-
 Front findFront(const SphereScene& scene, std::size_t brick, const std::uint8_t* hidden,
   const PrimaryRay& ray, double start, std::size_t& rays)
 {
@@ -112,7 +103,7 @@ Front findFront(const SphereScene& scene, std::size_t brick, const std::uint8_t*
   }
   const double radius = scene.spheres()[front.sphere].radius;
   const double way = front.s - start;
-  if (!isDoubtful(way, radius))
+  if (way <= ReliableRadii * radius)
   {
     return front;
   }

@@ -49,8 +49,9 @@ void passSpheres(const RTCFilterFunctionNArguments* arguments);
 [[nodiscard]] Front findFront(const SphereScene& scene, std::size_t brick,
   const std::uint8_t* hidden, const PrimaryRay& ray, double start, std::size_t& rays);
 
-/// May Embree's choice of this front from that start be wrong?
-[[nodiscard]] bool isDoubtful(double way, double radius);
+/// A single-precision hit this many radii from its start may be out of order with its neighbours:
+/// Embree's choice of the front may be wrong. 2^-24 * 4096 is some 1/4000 of a radius.
+inline constexpr double ReliableRadii = 4096;
 }
 
 #endif

@@ -3,6 +3,9 @@
 
 #include "Gamma2.h"
 
+#include <hwy/cache_control.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace po
@@ -56,73 +59,137 @@ void OcclusionTextures::decodeBytes()
 
 float OcclusionTextures::at(std::size_t particle, Vec3f direction) const
 {
-  const auto id = static_cast<std::int64_t>(particle);
-  float value = 0;
-  lookUp(&id, &direction, 1, &value);
-  return value;
+  OcclusionLookup lookup;
+  lookup.particles.fill(-1);
+  lookup.particles[0] = static_cast<std::int64_t>(particle);
+  std::fill_n(lookup.texels.x, OcclusionLookup::Size, direction.x);
+  std::fill_n(lookup.texels.y, OcclusionLookup::Size, direction.y);
+  std::fill_n(lookup.texels.z, OcclusionLookup::Size, direction.z);
+  std::array<float, OcclusionLookup::Size> values;
+  locate(lookup);
+  finish(lookup, values.data());
+  return values[0];
 }
 
-void OcclusionTextures::lookUp(
-  const std::int64_t* particles, const Vec3f* directions, std::size_t count, float* values) const
+void OcclusionTextures::request(const OcclusionLookup& lookup) const
 {
-  for (std::size_t i = 0; i < count; ++i)
+  for (const std::int64_t particle : lookup.particles)
   {
-    values[i] = means_ ? means_[particles[i]] : 1.0f;
+    if (rows_ && particle >= 0)
+    {
+      hwy::Prefetch(rows_ + particle);
+    }
+  }
+}
+
+void OcclusionTextures::locate(OcclusionLookup& lookup) const
+{
+  if (!rows_)
+  {
+    lookup.textures.fill(nullptr);
+    return;
+  }
+  findTexels(format_.resolution, lookup.texels);
+  const std::size_t texelBytes = format_.bytes ? 1 : sizeof(float);
+  if (packed_)
+  {
+    locate(lookup, 0, [this](std::int32_t first) { return packed_->code(std::size_t(first)); });
+  }
+  else if (paged_)
+  {
+    locate(lookup, texelBytes, [this](std::int32_t row) { return paged_->find(row); });
+  }
+  else
+  {
+    const auto* first = static_cast<const std::byte*>(texels_);
+    const std::size_t length = format_.textureBytes();
+    locate(lookup, texelBytes, [=](std::int32_t row) { return first + std::size_t(row) * length; });
+  }
+}
+
+/// @param textureOf where the texture of a row begins, null if it is not in memory
+template <typename TextureOf>
+void OcclusionTextures::locate(
+  OcclusionLookup& lookup, std::size_t texelBytes, const TextureOf& textureOf) const
+{
+  for (std::size_t i = 0; i < OcclusionLookup::Size; ++i)
+  {
+    const std::int32_t row = rowOf(lookup.particles[i]);
+    lookup.textures[i] = row < 0 ? nullptr : textureOf(row);
+    if (lookup.textures[i])
+    {
+      const auto* first = static_cast<const std::byte*>(lookup.textures[i]);
+      hwy::Prefetch(first + texelBytes * static_cast<std::size_t>(lookup.texels.texel[0][i]));
+      hwy::Prefetch(first + texelBytes * static_cast<std::size_t>(lookup.texels.texel[2][i]));
+    }
+  }
+}
+
+void OcclusionTextures::finish(const OcclusionLookup& lookup, float* values) const
+{
+  for (std::size_t i = 0; i < OcclusionLookup::Size; ++i)
+  {
+    const bool needed = means_ && !lookup.textures[i] && lookup.particles[i] >= 0;
+    values[i] = needed ? means_[lookup.particles[i]] : 1.0f;
   }
   if (!rows_)
   {
     return;
   }
-  TexelLookup lookup;
-  for (std::size_t i = 0; i < BlockSize; ++i)
+  if (packed_)
   {
-    const Vec3f direction = i < count ? directions[i] : Vec3f{ 1, 0, 0 };
-    lookup.x[i] = direction.x;
-    lookup.y[i] = direction.y;
-    lookup.z[i] = direction.z;
+    finishPacked(lookup, values);
   }
-  findTexels(format_.resolution, lookup);
-  packed_ ? lookUpPacked(particles, count, lookup, values)
-          : lookUpTexels(particles, count, lookup, values);
-}
-
-void OcclusionTextures::lookUpTexels(
-  const std::int64_t* particles, std::size_t count, const TexelLookup& lookup, float* values) const
-{
-  for (std::size_t i = 0; i < count; ++i)
+  else if (format_.bytes)
   {
-    const std::int32_t texture = rowOf(particles[i]);
-    const void* texels = texture < 0 ? nullptr : texelsOf(texture);
-    if (!texels)
-    {
-      continue;
-    }
-    const auto row = [&](std::int32_t j)
-    {
-      const float a = texel(texels, j, lookup.column0[i]), b = texel(texels, j, lookup.column1[i]);
-      return a + lookup.columnWeight[i] * (b - a);
-    };
-    const float a = row(lookup.row0[i]), b = row(lookup.row1[i]);
-    values[i] = a + lookup.rowWeight[i] * (b - a);
+    interpolate(
+      lookup,
+      [this](const void* texels, std::int32_t i)
+      { return decoded_[static_cast<const std::uint8_t*>(texels)[i]]; },
+      values);
+  }
+  else
+  {
+    interpolate(
+      lookup,
+      [](const void* texels, std::int32_t i) { return static_cast<const float*>(texels)[i]; },
+      values);
   }
 }
 
-void OcclusionTextures::lookUpPacked(
-  const std::int64_t* particles, std::size_t count, const TexelLookup& lookup, float* values) const
+/// @param decode value of a texture's texel
+template <typename Decode>
+void OcclusionTextures::interpolate(
+  const OcclusionLookup& lookup, const Decode& decode, float* values) const
 {
-  std::array<std::size_t, BlockSize> firsts{}, lanes{};
-  std::size_t textures = 0;
-  for (std::size_t i = 0; i < count; ++i)
+  TexelCorners corners;
+  for (std::size_t i = 0; i < OcclusionLookup::Size; ++i)
   {
-    if (rowOf(particles[i]) >= 0)
+    const void* texels = lookup.textures[i];
+    for (std::size_t k = 0; k < 4; ++k)
     {
-      firsts[textures] = static_cast<std::size_t>(rowOf(particles[i]));
-      lanes[textures++] = i;
+      corners.value[k][i] = texels ? decode(texels, lookup.texels.texel[k][i]) : values[i];
     }
   }
-  std::array<float, BlockSize> found{};
-  packed_->lookUp(firsts.data(), lanes.data(), textures, lookup, found.data());
-  for (std::size_t i = 0; i < textures; ++i)
+  interpolateTexels(corners, lookup.texels, values);
+}
+
+void OcclusionTextures::finishPacked(const OcclusionLookup& lookup, float* values) const
+{
+  std::array<const std::uint8_t*, OcclusionLookup::Size> codes{};
+  std::array<std::size_t, OcclusionLookup::Size> lanes{};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < OcclusionLookup::Size; ++i)
+  {
+    if (lookup.textures[i])
+    {
+      codes[count] = static_cast<const std::uint8_t*>(lookup.textures[i]);
+      lanes[count++] = i;
+    }
+  }
+  std::array<float, OcclusionLookup::Size> found{};
+  packed_->lookUp(codes.data(), lanes.data(), count, lookup.texels, found.data());
+  for (std::size_t i = 0; i < count; ++i)
   {
     values[lanes[i]] = found[i];
   }

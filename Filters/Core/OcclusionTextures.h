@@ -28,6 +28,16 @@ struct TexelFormat
   }
 };
 
+/// Lookups for a block of directions, on their way.
+struct OcclusionLookup
+{
+  static constexpr std::size_t Size = TexelLookup::Size;
+
+  std::array<std::int64_t, Size> particles; ///< negative: none, any value
+  TexelLookup texels;                       ///< x, y and z are the directions, of any length
+  std::array<const void*, Size> textures;   ///< where they begin, or null: the mean
+};
+
 /// A table of baked textures and which particle has which, as the renderer reads it. It refers to
 /// arrays of the caller.
 class OcclusionTextures
@@ -71,41 +81,30 @@ public:
   /// Texture of a particle; negative: it has only its mean.
   [[nodiscard]] std::int32_t rowOf(std::int64_t particle) const
   {
-    return rows_ ? rows_[particle] : -1;
+    return rows_ && particle >= 0 ? rows_[particle] : -1;
   }
 
   /// Bilinear value where `direction` (of any length) leaves the particle's centre. The texels are
   /// decoded first, so that the interpolation is one of light, not of code values.
   [[nodiscard]] float at(std::size_t particle, Vec3f direction) const;
 
-  /// Values that lookUp() finds at once.
-  static constexpr std::size_t BlockSize = TexelLookup::Size;
+  // The same for a block in three steps. Textures of particles side by side may lie far apart in
+  // memory: who has many blocks takes each step for all of them before the next one, so that memory
+  // has time to answer.
 
-  /// The same for up to BlockSize particles.
-  void lookUp(
-    const std::int64_t* particles, const Vec3f* directions, std::size_t count, float* values) const;
+  /// Asks memory for the rows of the particles.
+  void request(const OcclusionLookup& lookup) const;
+  /// Finds the texels and asks memory for them.
+  void locate(OcclusionLookup& lookup) const;
+  /// @param values OcclusionLookup::Size of them
+  void finish(const OcclusionLookup& lookup, float* values) const;
 
 private:
-  /// Looks up those lanes whose particles have a texture.
-  void lookUpTexels(const std::int64_t* particles, std::size_t count, const TexelLookup& lookup,
-    float* values) const;
-  void lookUpPacked(const std::int64_t* particles, std::size_t count, const TexelLookup& lookup,
-    float* values) const;
-
-  /// First texel of a texture, or null if it is not in memory.
-  [[nodiscard]] const void* texelsOf(std::int32_t row) const
-  {
-    return paged_ ? paged_->find(row)
-                  : static_cast<const std::byte*>(texels_) +
-        static_cast<std::size_t>(row) * format_.textureBytes();
-  }
-
-  [[nodiscard]] float texel(const void* texels, std::int32_t row, std::int32_t column) const
-  {
-    const std::size_t i = texelIndex(format_.resolution, row, column);
-    return format_.bytes ? decoded_[static_cast<const std::uint8_t*>(texels)[i]]
-                         : static_cast<const float*>(texels)[i];
-  }
+  void finishPacked(const OcclusionLookup& lookup, float* values) const;
+  template <typename TextureOf>
+  void locate(OcclusionLookup& lookup, std::size_t texelBytes, const TextureOf& textureOf) const;
+  template <typename Decode>
+  void interpolate(const OcclusionLookup& lookup, const Decode& decode, float* values) const;
 
   void decodeBytes();
 

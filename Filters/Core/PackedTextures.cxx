@@ -81,22 +81,20 @@ void PackedTextures::addComponents(const std::uint8_t* code, std::size_t lane,
   block.code[i] = code;
   block.words[i] = PackedFormat::ClassWords[c];
   block.layout[i] = &layouts_[c];
-  const std::int32_t row0 = lookup.row0[lane], row1 = lookup.row1[lane];
-  const std::int32_t column0 = lookup.column0[lane], column1 = lookup.column1[lane];
-  block.texels[i] = { basisAt(row0, column0), basisAt(row0, column1), basisAt(row1, column0),
-    basisAt(row1, column1) };
+  block.texels[i] = { basisAt(lookup.texel[0][lane]), basisAt(lookup.texel[1][lane]),
+    basisAt(lookup.texel[2][lane]), basisAt(lookup.texel[3][lane]) };
   const float x = lookup.columnWeight[lane], y = lookup.rowWeight[lane];
   block.weights[i] = { (1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y };
 }
 
-void PackedTextures::lookUp(const std::size_t* firsts, const std::size_t* lanes, std::size_t count,
-  const TexelLookup& lookup, float* values) const
+void PackedTextures::lookUp(const std::uint8_t* const* codes, const std::size_t* lanes,
+  std::size_t count, const TexelLookup& lookup, float* values) const
 {
   ComponentBlock block;
   std::array<std::size_t, ComponentBlock::Size> places;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::uint8_t* texture = code(firsts[i]);
+    const std::uint8_t* texture = codes[i];
     if ((*texture & PackedFormat::HeaderMask) < PackedFormat::SizeKinds)
     {
       values[i] = lookUpSize(texture, lookup.u[lanes[i]], lookup.v[lanes[i]]);
@@ -115,8 +113,9 @@ void PackedTextures::lookUp(const std::size_t* firsts, const std::size_t* lanes,
 void PackedTextures::decode(std::size_t first, float* texture) const
 {
   TexelLookup lookup;
-  std::array<std::size_t, TexelLookup::Size> firsts, lanes;
-  firsts.fill(first);
+  std::array<const std::uint8_t*, TexelLookup::Size> codes;
+  std::array<std::size_t, TexelLookup::Size> lanes;
+  codes.fill(code(first));
   for (std::int32_t row = 0; row < resolution_; ++row)
   {
     for (std::int32_t column = 0; column < resolution_;)
@@ -127,11 +126,13 @@ void PackedTextures::decode(std::size_t first, float* texture) const
         lanes[count] = count;
         lookup.u[count] = (static_cast<float>(column) + 0.5f) / static_cast<float>(resolution_);
         lookup.v[count] = (static_cast<float>(row) + 0.5f) / static_cast<float>(resolution_);
-        lookup.row0[count] = lookup.row1[count] = row;
-        lookup.column0[count] = lookup.column1[count] = column;
+        for (std::int32_t(&texel)[TexelLookup::Size] : lookup.texel)
+        {
+          texel[count] = row * resolution_ + column;
+        }
         lookup.rowWeight[count] = lookup.columnWeight[count] = 0;
       }
-      lookUp(firsts.data(), lanes.data(), count, lookup, texture);
+      lookUp(codes.data(), lanes.data(), count, lookup, texture);
       texture += count;
     }
   }

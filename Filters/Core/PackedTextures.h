@@ -28,26 +28,28 @@ public:
   /// What is looked up at the centres of T x T texels. The texture must begin there.
   void decode(std::size_t first, float* texture) const;
 
-  /// Values of up to TexelLookup::Size textures that begin at `firsts`.
-  /// @param lookup with the texels found for the format's resolution
-  /// @param lanes which direction of the lookup each is for
-  void lookUp(const std::size_t* firsts, const std::size_t* lanes, std::size_t count,
-    const TexelLookup& lookup, float* values) const;
-
-private:
+  /// Where the texture begins whose first word is `first`.
   [[nodiscard]] const std::uint8_t* code(std::size_t first) const
   {
     return words_ + PackedFormat::WordBytes * first;
   }
 
+  /// Values of up to TexelLookup::Size textures.
+  /// @param codes where they begin, see code()
+  /// @param lookup with the texels found for the format's resolution
+  /// @param lanes which direction of the lookup each is for
+  void lookUp(const std::uint8_t* const* codes, const std::size_t* lanes, std::size_t count,
+    const TexelLookup& lookup, float* values) const;
+
+private:
   [[nodiscard]] float lookUpSize(const std::uint8_t* code, float u, float v) const;
 
   void addComponents(const std::uint8_t* code, std::size_t lane, const TexelLookup& lookup,
     ComponentBlock& block) const;
 
-  [[nodiscard]] const float* basisAt(std::int32_t row, std::int32_t column) const
+  [[nodiscard]] const float* basisAt(std::int32_t texel) const
   {
-    return basis_.data() + static_cast<std::size_t>(row * resolution_ + column) * stride_;
+    return basis_.data() + static_cast<std::size_t>(texel) * stride_;
   }
 
   int resolution_;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PrimaryPacket.h"
 
+#include "FrameTracer.h"
+#include "FrontFinder.h"
+
+#include <algorithm>
 #include <limits>
 
 // Highway compiles this file once for each instruction set and chooses when it runs.
@@ -119,11 +123,15 @@ inline Vector loadFloats(const float* from)
 }
 
 /// The perpendicular form keeps its digits for an origin far away.
-void meetFronts(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX, double sampleY,
-  PrimaryPacket& packet)
+std::size_t meetFronts(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX,
+  double sampleY, PrimaryPacket& packet)
 {
   const Doubles d;
-  const Vector zero = hn::Zero(d), half = hn::Set(d, 0.5), one = hn::Set(d, 1.0);
+  const Vector zero = hn::Zero(d), half = hn::Set(d, 0.5), one = hn::Set(d, 1.0),
+               nowhere = hn::Set(d, std::numeric_limits<double>::infinity()),
+               noDepth = hn::Set(d, TracedFrame::NoDepth);
+  const bool isEven = rays.worldPerLocal > 0;
+  std::size_t doubtful = 0;
   for (std::size_t lane = 0; lane < PrimaryPacket::Size; lane += hn::Lanes(d))
   {
     const WindowPositions p(rays, x0, y0, sampleX, sampleY, lane);
@@ -148,18 +156,25 @@ void meetFronts(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX,
       hn::MulAdd(s, hn::Mul(at(rays.directionZ, p.x, p.y), inverse), at(rays.originZ, p.x, p.y));
     const Vector w =
       hn::MulAdd(s, hn::Mul(at(rays.directionW, p.x, p.y), inverse), at(rays.originW, p.x, p.y));
-    const auto front = hn::And(hn::Ge(squared, zero), hn::Le(hn::Abs(z), w));
-    const Vector depth = hn::MulAdd(hn::Div(z, w), half, half);
+    const Vector depth = hn::Min(hn::Max(hn::MulAdd(hn::Div(z, w), half, half), zero), one);
+    const auto candidate = hn::Gt(radius, zero);
+    const Vector way = hn::Sub(s, hn::Load(d, packet.start + lane));
+    const auto front = hn::And(hn::And(hn::Ge(squared, zero), hn::Le(hn::Abs(z), w)),
+      hn::Le(way, hn::Mul(hn::Set(d, ReliableRadii), radius)));
+    const auto unsure = isEven ? hn::AndNot(front, candidate) : candidate;
+    doubtful += hn::CountTrue(d, unsure);
 
-    hn::Store(s, d, packet.s + lane);
+    const Vector t = hn::Mul(s, hn::Set(d, rays.worldPerLocal));
+    hn::Store(hn::IfThenElse(candidate, t, nowhere), d, packet.t + lane);
     const auto normal = [&](Vector foot, Vector along)
-    { return hn::Mul(scale, hn::NegMulAdd(chord, along, foot)); };
+    { return hn::IfThenElseZero(candidate, hn::Mul(scale, hn::NegMulAdd(chord, along, foot))); };
     storeFloats(normal(nearest.x, direction.x), packet.normalX + lane);
     storeFloats(normal(nearest.y, direction.y), packet.normalY + lane);
     storeFloats(normal(nearest.z, direction.z), packet.normalZ + lane);
-    storeFloats(hn::Min(hn::Max(depth, zero), one), packet.windowDepth + lane);
-    storeFloats(hn::IfThenElseZero(front, one), packet.isFront + lane);
+    storeFloats(hn::IfThenElse(candidate, depth, noDepth), packet.windowDepth + lane);
+    storeFloats(hn::IfThenElseZero(unsure, one), packet.isDoubtful + lane);
   }
+  return doubtful;
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -172,20 +187,17 @@ HWY_EXPORT(meetFronts);
 
 namespace
 {
-/// What is the same for all rays.
+/// What is the same for all rays: array by array, in vector code.
 void fillConstants(RTCRayHit16& query)
 {
-  for (std::size_t lane = 0; lane < PrimaryPacket::Size; ++lane)
-  {
-    query.ray.tnear[lane] = 0;
-    query.ray.time[lane] = 0;
-    query.ray.tfar[lane] = std::numeric_limits<float>::infinity();
-    query.ray.mask[lane] = 0xFFFFFFFFu;
-    query.ray.flags[lane] = 0;
-    query.ray.id[lane] = static_cast<unsigned>(lane);
-    query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][lane] = RTC_INVALID_GEOMETRY_ID;
-  }
+  constexpr std::size_t Size = PrimaryPacket::Size;
+  std::fill_n(query.ray.tnear, Size, 0.0f);
+  std::fill_n(query.ray.time, Size, 0.0f);
+  std::fill_n(query.ray.tfar, Size, std::numeric_limits<float>::infinity());
+  std::fill_n(query.ray.mask, Size, 0xFFFFFFFFu);
+  std::fill_n(query.ray.flags, Size, 0u);
+  std::fill_n(query.hit.geomID, Size, RTC_INVALID_GEOMETRY_ID);
+  std::fill_n(query.hit.instID[0], Size, RTC_INVALID_GEOMETRY_ID);
 }
 }
 
@@ -197,10 +209,10 @@ void makeRays(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX, d
   (rays, x0, y0, sampleX, sampleY, start, clipStart, packet, query);
 }
 
-void meetFronts(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX, double sampleY,
-  PrimaryPacket& packet)
+std::size_t meetFronts(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX,
+  double sampleY, PrimaryPacket& packet)
 {
-  HWY_DYNAMIC_DISPATCH(meetFronts)(rays, x0, y0, sampleX, sampleY, packet);
+  return HWY_DYNAMIC_DISPATCH(meetFronts)(rays, x0, y0, sampleX, sampleY, packet);
 }
 }
 #endif

@@ -7,6 +7,7 @@
 #include "Sphere.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace po
 {
@@ -25,15 +26,17 @@ struct PrimaryPacket
   alignas(64) double inverseLength[Size]; ///< of the direction before it was made a unit vector
   alignas(64) double start[Size];         ///< s at which Embree's ray begins
 
-  // Candidates, one a lane, in the order x, y, z, radius.
+  // Candidates, one a lane, in the order x, y, z, radius; of radius 0: none.
   alignas(64) float sphere[4][Size];
+  alignas(64) std::uint32_t id[Size]; ///< SphereScene::None: no candidate
 
-  // Hits.
-  alignas(64) double s[Size];
+  // Fronts, as in TracedFrame, also where there is no candidate.
+  alignas(64) double t[Size];
   alignas(64) float normalX[Size], normalY[Size], normalZ[Size];
   alignas(64) float windowDepth[Size];
-  /// 1 where the front of the candidate is met between the near and the far plane.
-  alignas(64) float isFront[Size];
+  /// 1 where there is a candidate whose front may not be the nearest, else 0: it is not met between
+  /// the near and the far plane, or far from the start, or t is another multiple of s in each lane.
+  alignas(64) float isDoubtful[Size];
 };
 
 /// Makes the rays of pixels [x0, x0 + 4) x [y0, y0 + 4) and hands them to Embree's packet, which is
@@ -46,8 +49,9 @@ void makeRays(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX, d
   double start, bool clipStart, PrimaryPacket& packet, RTCRayHit16& query);
 
 /// Intersects the front of each lane's candidate, whatever Embree found of it.
-void meetFronts(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX, double sampleY,
-  PrimaryPacket& packet);
+/// @return number of doubtful lanes
+std::size_t meetFronts(const PrimaryRayFunctions& rays, int x0, int y0, double sampleX,
+  double sampleY, PrimaryPacket& packet);
 }
 
 #endif

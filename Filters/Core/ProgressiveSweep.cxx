@@ -45,6 +45,15 @@ std::vector<unsigned> watchedSpheres(const SweepScene& order, std::vector<unsign
   return particles;
 }
 
+std::unique_ptr<LoggedVisibility> makeLog(const SweepTexels& texels, const SweepScene& order,
+  const std::vector<unsigned>& particles, const std::vector<unsigned>& watched)
+{
+  std::vector<unsigned> spheres(particles.size());
+  std::transform(particles.begin(), particles.end(), spheres.begin(),
+    [&order](unsigned particle) { return order.indexOf(particle); });
+  return std::make_unique<LoggedVisibility>(texels, spheres, order.size(), watched);
+}
+
 /// Replaces textures of `count` places of the list from `first` on.
 void replace(const TextureReplacements& by, std::size_t first, std::size_t count,
   std::vector<float>& values, std::vector<float>& shares)
@@ -84,7 +93,7 @@ std::vector<std::uint8_t> aloneFlags(
 }
 
 ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
-  const BakeSettings& settings, const SweepSkips& skips, Watch watch)
+  const BakeSettings& settings, const SweepSkips& skips, Watch watch, Records records)
   : settings_(settings)
   , particles_(std::move(particles))
   , order_(scene.rays.set())
@@ -92,7 +101,8 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   , watched_(watchedSpheres(order_, particles_, settings.seed, watch))
   , alone_(aloneFlags(
       scene, order_, skips.lonely ? scene.cloud.toLocalReach(settings.maximumDistance) : Unbounded))
-  , records_(scene, order_, texels_, settings.seed, order_.flagsOf(particles_), alone_, watched_)
+  , records_(scene, order_, texels_, settings.seed, order_.flagsOf(particles_), alone_, watched_,
+      records == Records::OutOfCore ? makeLog(texels_, order_, particles_, watched_) : nullptr)
   , sweep_(order_, settings.background, scene.cloud.toLocalReach(settings.maximumDistance),
       records_, skips, alone_)
 {
@@ -138,10 +148,27 @@ double ProgressiveSweep::estimatedError() const
   return all.rms();
 }
 
+/// Makes the sums of a place of the list known.
+/// @return of how many places from there on they are
+std::size_t ProgressiveSweep::loadFor(std::size_t place) const
+{
+  LoggedVisibility* log = records_.log();
+  if (log == nullptr)
+  {
+    return particles_.size();
+  }
+  const std::size_t inPart = place % log->placesPerPart();
+  if (inPart == 0)
+  {
+    log->load(place / log->placesPerPart());
+  }
+  return log->placesPerPart() - inPart;
+}
+
 void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& progress,
   BakeCounters& counters, const TextureReplacements& replacements) const
 {
-  constexpr std::size_t valuesPerChunk = std::size_t(1) << 22;
+  constexpr std::size_t valuesPerChunk = std::size_t(1) << 19; // 4 MiB with the shares
   const auto side = static_cast<std::size_t>(settings_.textureResolution);
   const std::size_t texels = side * side;
   const std::size_t chunk = std::max<std::size_t>(1, valuesPerChunk / texels);
@@ -150,9 +177,10 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
   std::vector<float> shares;
   progress.begin(
     particles_.size(), "Textures of " + std::to_string(particles_.size()) + " particles");
-  for (std::size_t first = 0; first < particles_.size() && !progress.aborted(); first += chunk)
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < particles_.size() && !progress.aborted(); first += count)
   {
-    const std::size_t count = std::min(chunk, particles_.size() - first);
+    count = std::min({ chunk, particles_.size() - first, loadFor(first) });
     values.resize(count * texels);
     shares.resize(count * texels);
     tbb::parallel_for(std::size_t(0), count,

@@ -35,10 +35,18 @@ public:
     All   ///< which takes 16 bytes a texel more
   };
 
+  /// Where what is seen is kept until it is handed out.
+  enum class Records
+  {
+    InMemory,
+    OutOfCore ///< in a temporary file; error bars are known when all is handed out
+  };
+
   /// @param particles whose textures are wanted, by their index in the cloud; all others occlude.
   /// The scene and the settings must outlive this.
   ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
-    const BakeSettings& settings, const SweepSkips& skips = {}, Watch watch = Watch::Some);
+    const BakeSettings& settings, const SweepSkips& skips = {}, Watch watch = Watch::Some,
+    Records records = Records::InMemory);
 
   /// How further directions are spread.
   enum class Spread
@@ -72,6 +80,8 @@ public:
     const TextureReplacements& replacements = {}) const;
 
 private:
+  [[nodiscard]] std::size_t loadFor(std::size_t place) const;
+
   const BakeSettings& settings_;
   std::vector<unsigned> particles_;
   SweepScene order_;

@@ -90,7 +90,8 @@ struct ShadingInput
 {
   const PrimaryRays& rays;
   const TracedFrame& frame;
-  const std::vector<std::int64_t>& particles; ///< of each sphere, see SphereCloud::sourceIds
+  const std::int64_t*
+    particles; ///< of each sphere, see SphereCloud; null: each sphere's own number
   const OcclusionTextures& textures;
   const std::vector<Light>& lights;
   const ShadowMasks& shadows; ///< fewer masks than lights: the others cast no shadows

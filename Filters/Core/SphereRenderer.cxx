@@ -66,6 +66,18 @@ std::vector<std::uint8_t> pixelsToLookBehind(const FrameLayer& layer, std::vecto
   return wanted;
 }
 
+bool countsUp(const std::vector<std::int64_t>& ids)
+{
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    if (ids[i] != static_cast<std::int64_t>(i))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 Matrix4 localToModel(const SphereCloud& cloud)
 {
   const double s = cloud.scale;
@@ -77,6 +89,7 @@ Matrix4 localToModel(const SphereCloud& cloud)
 void SphereRenderer::setCloud(SphereCloud cloud)
 {
   cloud_ = std::move(cloud);
+  isComplete_ = countsUp(cloud_.sourceIds);
   hidden_.clear();
   scene_.reset();
   forgetFrame();
@@ -186,7 +199,8 @@ void SphereRenderer::shadeLayer(FrameLayer& layer)
     layer.shadowLights.clear();
     layer.shadows.lit.clear();
   }
-  shadeFrame({ *rays_, layer.frame, cloud_.sourceIds, style_.textures, style_.lights, layer.shadows,
+  const std::int64_t* particles = isComplete_ ? nullptr : cloud_.sourceIds.data();
+  shadeFrame({ *rays_, layer.frame, particles, style_.textures, style_.lights, layer.shadows,
                style_.material },
     layer.rgba);
 }

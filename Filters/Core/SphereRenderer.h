@@ -142,6 +142,7 @@ private:
 
   std::shared_ptr<SceneCache> scenes_;
   SphereCloud cloud_;
+  bool isComplete_ = false; ///< is each sphere's source that of its own number?
   std::vector<std::uint8_t> hidden_;
   std::shared_ptr<const SphereScene> scene_;
   std::optional<PrimaryRays> rays_;

@@ -164,10 +164,11 @@ SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool al
 
 AxisWeights SphereSweep::weightsOf(const AxisJob& job) const
 {
-  AxisWeights weights{ job.pattern, std::vector<GroupMask>(records_.texels().groups(), 0),
+  AxisWeights weights{ job.pattern, std::vector<GroupMask>(records_.texels().groups(), 0), {},
     std::vector<float>(records_.texels().slots(), 0.0f) };
   for (const SweptDirection& direction : job.directions)
   {
+    weights.facing[direction.upward ? 1 : 0] = direction.facing.facing;
     for (std::size_t slot = 0; slot < weights.weight.size(); ++slot)
     {
       const GroupMask bit = static_cast<GroupMask>(1u << (slot % GroupSize));

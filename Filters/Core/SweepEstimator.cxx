@@ -201,41 +201,24 @@ void SweepEstimator::estimate(const BakeScene& scene, const std::vector<unsigned
     report_ = sweep.report();
     return;
   }
-  estimateParts(scene, particles, settings, progress, sink, counters);
+  sweepOnce(scene, particles, settings, progress, sink, counters);
 }
 
-void SweepEstimator::estimateParts(const BakeScene& scene, const std::vector<unsigned>& particles,
+void SweepEstimator::sweepOnce(const BakeScene& scene, const std::vector<unsigned>& particles,
   const BakeSettings& settings, Progress& progress, const Sink& sink, BakeCounters& counters) const
 {
   const int directions = options_.directions > 0
     ? options_.directions
     : sweepDirectionsForSamples(settings.samplesPerTexel);
-  const auto parts = static_cast<std::size_t>(std::max(1, options_.parts));
-  double squares = 0;
-  BakeCounters work;
-  for (std::size_t part = 0; part < parts && !progress.aborted(); ++part)
+  ProgressiveSweep sweep(scene, particles, settings, options_.skips, ProgressiveSweep::Watch::Some,
+    options_.outOfCore ? ProgressiveSweep::Records::OutOfCore
+                       : ProgressiveSweep::Records::InMemory);
+  sweep.refine(directions, progress);
+  report_.directions = sweep.directions();
+  if (!progress.aborted())
   {
-    const std::size_t first = particles.size() * part / parts;
-    const std::size_t last = particles.size() * (part + 1) / parts;
-    ProgressiveSweep sweep(
-      scene, { particles.begin() + first, particles.begin() + last }, settings, options_.skips);
-    sweep.refine(directions, progress);
-    report_.directions = sweep.directions();
-    if (progress.aborted())
-    {
-      return;
-    }
-    squares += static_cast<double>(last - first) * std::pow(sweep.estimatedError(), 2);
-    sweep.handOut(
-      [&](const RawTextures& raw) {
-        sink({ first + raw.firstParticle, raw.count, raw.values, raw.outsideShares });
-      },
-      progress, work);
+    sweep.handOut(sink, progress, counters);
+    report_.estimatedError = sweep.estimatedError();
   }
-  work.directionsBlack /= parts; // the same ones in each
-  counters.add(work);
-  counters.threads = std::max(counters.threads, work.threads);
-  report_.estimatedError =
-    particles.empty() ? 0 : std::sqrt(squares / static_cast<double>(particles.size()));
 }
 }

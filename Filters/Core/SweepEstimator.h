@@ -13,10 +13,10 @@ struct SweepOptions
   int directions = 0;       ///< 0: as many as the settings' samplesPerTexel stand for
   double targetError = 0;   ///< above 0: RMS error to reach, with as many directions as that takes
   bool refineByRays = true; ///< with a target, where that is cheaper; off for measurements
-  /// The list is worked through in so many parts, with a sweep each: records are kept of one part
-  /// at a time, so that memory is divided by it and time multiplied. Textures have the same bits.
-  /// With a target error, which is judged over all particles, there is one part.
-  int parts = 1;
+  /// What is seen is kept in a temporary file (see LoggedVisibility). Textures have the same bits.
+  /// With a target error, for which sums are looked at in between, they are kept in memory all the
+  /// same.
+  bool outOfCore = false;
   SweepSkips skips = {};
 };
 
@@ -60,7 +60,7 @@ public:
   /// of all particles take 16.
   [[nodiscard]] double bytesPerTexel() const override
   {
-    return options_.targetError > 0 ? 29 : 13.0 / options_.parts;
+    return options_.targetError > 0 ? 29 : (options_.outOfCore ? 8 : 13);
   }
 
   [[nodiscard]] double estimatedError() const override { return report_.estimatedError; }
@@ -69,7 +69,7 @@ public:
   [[nodiscard]] const SweepReport& report() const { return report_; }
 
 private:
-  void estimateParts(const BakeScene& scene, const std::vector<unsigned>& particles,
+  void sweepOnce(const BakeScene& scene, const std::vector<unsigned>& particles,
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const;
 

@@ -60,7 +60,8 @@ void findTexels(int resolution, TexelLookup& lookup)
   const Integers di;
   const Vector size = hn::Set(d, static_cast<float>(resolution)), half = hn::Set(d, 0.5f),
                perTurn = hn::Set(d, static_cast<float>(1 / (2 * Pi)));
-  const auto last = hn::Set(di, resolution - 1), first = hn::Zero(di), one = hn::Set(di, 1);
+  const auto width = hn::Set(di, resolution), last = hn::Set(di, resolution - 1),
+             first = hn::Zero(di), one = hn::Set(di, 1);
   for (std::size_t lane = 0; lane < TexelLookup::Size; lane += hn::Lanes(d))
   {
     const Vector x = hn::Load(d, lookup.x + lane), y = hn::Load(d, lookup.y + lane),
@@ -75,10 +76,29 @@ void findTexels(int resolution, TexelLookup& lookup)
     const auto j = splitPosition(hn::MulSub(v, size, half), lookup.rowWeight + lane);
     const auto next = hn::Add(i, one);
     // Rounding may take u to 1 and v beyond: the first column, the last row.
-    hn::Store(hn::IfThenElse(hn::Lt(i, first), last, hn::Min(i, last)), di, lookup.column0 + lane);
-    hn::Store(hn::IfThenElse(hn::Gt(next, last), first, next), di, lookup.column1 + lane);
-    hn::Store(hn::Min(hn::Max(j, first), last), di, lookup.row0 + lane);
-    hn::Store(hn::Min(hn::Add(j, one), last), di, lookup.row1 + lane);
+    const auto column0 = hn::IfThenElse(hn::Lt(i, first), last, hn::Min(i, last));
+    const auto column1 = hn::IfThenElse(hn::Gt(next, last), first, next);
+    const auto row0 = hn::Mul(width, hn::Min(hn::Max(j, first), last));
+    const auto row1 = hn::Mul(width, hn::Min(hn::Add(j, one), last));
+    hn::Store(hn::Add(row0, column0), di, lookup.texel[0] + lane);
+    hn::Store(hn::Add(row0, column1), di, lookup.texel[1] + lane);
+    hn::Store(hn::Add(row1, column0), di, lookup.texel[2] + lane);
+    hn::Store(hn::Add(row1, column1), di, lookup.texel[3] + lane);
+  }
+}
+
+void interpolateTexels(const TexelCorners& corners, const TexelLookup& lookup, float* values)
+{
+  const Floats d;
+  for (std::size_t lane = 0; lane < TexelLookup::Size; lane += hn::Lanes(d))
+  {
+    const auto mix = [&](Vector weight, Vector a, Vector b)
+    { return hn::MulAdd(weight, hn::Sub(b, a), a); };
+    const auto corner = [&](std::size_t k) { return hn::Load(d, corners.value[k] + lane); };
+    const Vector across = hn::Load(d, lookup.columnWeight + lane),
+                 down = hn::Load(d, lookup.rowWeight + lane);
+    const Vector row0 = mix(across, corner(0), corner(1)), row1 = mix(across, corner(2), corner(3));
+    hn::StoreU(mix(down, row0, row1), d, values + lane);
   }
 }
 }
@@ -88,10 +108,16 @@ HWY_AFTER_NAMESPACE();
 namespace po
 {
 HWY_EXPORT(findTexels);
+HWY_EXPORT(interpolateTexels);
 
 void findTexels(int resolution, TexelLookup& lookup)
 {
   HWY_DYNAMIC_DISPATCH(findTexels)(resolution, lookup);
+}
+
+void interpolateTexels(const TexelCorners& corners, const TexelLookup& lookup, float* values)
+{
+  HWY_DYNAMIC_DISPATCH(interpolateTexels)(corners, lookup, values);
 }
 }
 #endif

@@ -19,14 +19,26 @@ struct TexelLookup
   // Position on the texture, see TextureCoordinate: 0 to 1, which rounding may take u to.
   alignas(64) float u[Size], v[Size];
 
-  // The four texels: columns wrapped, rows clamped. Weights are those of the second ones.
-  alignas(64) std::int32_t column0[Size], column1[Size], row0[Size], row1[Size];
+  /// Indices of the four texels, columns wrapped and rows clamped: two neighbours in one row, then
+  /// the two of the next row.
+  alignas(64) std::int32_t texel[4][Size];
+
+  // Shares of the second column and of the second row.
   alignas(64) float columnWeight[Size], rowWeight[Size];
+};
+
+/// Values of the four texels of each direction.
+struct TexelCorners
+{
+  alignas(64) float value[4][TexelLookup::Size];
 };
 
 /// Fills in texels and weights. Positions on the texture are right to 3e-7 of its width and height,
 /// one 50,000th of a texel at a resolution of 64.
 void findTexels(int resolution, TexelLookup& lookup);
+
+/// Bilinear values; where the four are equal, that value exactly.
+void interpolateTexels(const TexelCorners& corners, const TexelLookup& lookup, float* values);
 }
 
 #endif

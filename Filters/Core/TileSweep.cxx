@@ -100,7 +100,8 @@ bool TileSweep::sees(
   }
   if (tileSphere.role == TileRole::Receiver)
   {
-    records_.keep(sphere.index, direction.axis, mask_.data());
+    records_.keep(
+      sphere.index, direction.axis, direction.upward, direction.facing.facing.data(), mask_.data());
   }
   return true;
 }

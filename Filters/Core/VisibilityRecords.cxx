@@ -25,7 +25,8 @@ bool isSliver(const BuriedCap& cap)
 
 VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& order,
   const SweepTexels& texels, std::uint64_t seed, const std::vector<std::uint8_t>& listed,
-  const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched)
+  const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched,
+  std::unique_ptr<LoggedVisibility> log)
   : scene_(scene)
   , order_(order)
   , texels_(texels)
@@ -37,6 +38,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , exposures_(order.size())
   , chunks_((order.size() + ChunkSpheres - 1) / ChunkSpheres)
   , watched_(order.size(), 0)
+  , log_(std::move(log))
 {
   open_.total.assign(texels.slots(), 0.0f);
   open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
@@ -144,10 +146,16 @@ VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
   return *(place.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 
-void VisibilityRecords::keep(unsigned sphere, std::size_t axis, const GroupMask* mask)
+void VisibilityRecords::keep(
+  unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask)
 {
   if (listed_[sphere] == 0)
   {
+    return;
+  }
+  if (log_)
+  {
+    log_->keep(sphere, axis, upward, facing, mask);
     return;
   }
   Chunk& chunk = findOrMakeChunk(sphere);
@@ -177,6 +185,11 @@ void VisibilityRecords::addBlock(const std::vector<AxisWeights>& axes, std::size
     {
       open_.latestPatterns[TexelPatterns::index(axis.pattern, slot)] += axis.weight[slot];
     }
+  }
+  if (log_)
+  {
+    log_->endBlock(axes, subset);
+    return;
   }
   tbb::parallel_for(std::size_t(0), chunks_.size(),
     [&](std::size_t i)
@@ -261,6 +274,10 @@ const float* VisibilityRecords::sums(unsigned sphere) const
   {
     return open_.total.data();
   }
+  if (log_)
+  {
+    return log_->sums(sphere);
+  }
   const Chunk* chunk = chunkIfSeen(sphere);
   return chunk != nullptr ? chunk->sums + sphere % ChunkSpheres * texels_.slots() : nullptr;
 }
@@ -270,6 +287,10 @@ const float* VisibilityRecords::subsetSums(unsigned sphere) const
   if (isAlone(sphere))
   {
     return open_.subsets.data();
+  }
+  if (log_)
+  {
+    return log_->subsetSums(sphere);
   }
   const Chunk* chunk = chunkIfSeen(sphere);
   return chunk != nullptr ? chunk->subsets[sphere % ChunkSpheres] : nullptr;

@@ -2,6 +2,7 @@
 #ifndef po_VisibilityRecords_h
 #define po_VisibilityRecords_h
 
+#include "LoggedVisibility.h"
 #include "OcclusionEstimator.h"
 #include "RecordMemory.h"
 #include "SweepScene.h"
@@ -32,14 +33,6 @@ struct CutSphere
     pastWeights; ///< [rimGroups][GroupSize] of exposed points, of ended epochs if any
 };
 
-/// What a texel's point receives of an axis: it faces one of the two directions at most.
-struct AxisWeights
-{
-  std::size_t pattern;        ///< of the points
-  std::vector<GroupMask> lit; ///< [groups] texels that face a direction that is not black
-  std::vector<float> weight;  ///< [slots] height over the horizon times luminance, 0 if not lit
-};
-
 /// Weights that an open texel gets: what all spheres have in common.
 struct OpenWeights
 {
@@ -51,7 +44,8 @@ struct OpenWeights
 
 /// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
 /// 16 x 16 texels 1.25 KiB a sphere, 1 to 2 KiB more where others overlap it, and 4 KiB more where
-/// it is watched and seen.
+/// it is watched and seen. Out of core the visibility is in a file, and only what overlaps a sphere
+/// takes memory.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
@@ -61,9 +55,11 @@ public:
   /// @param listed flags by sphere: whose visibility is asked for
   /// @param alone flags by sphere: known to be open all over
   /// @param watched the spheres that error bars come from
+  /// @param log takes what is seen of the listed spheres, out of core; null: memory does
   VisibilityRecords(const BakeScene& scene, const SweepScene& order, const SweepTexels& texels,
     std::uint64_t seed, const std::vector<std::uint8_t>& listed,
-    const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched);
+    const std::vector<std::uint8_t>& alone, const std::vector<unsigned>& watched,
+    std::unique_ptr<LoggedVisibility> log = nullptr);
   VisibilityRecords(const VisibilityRecords&) = delete;
   VisibilityRecords& operator=(const VisibilityRecords&) = delete;
 
@@ -80,13 +76,19 @@ public:
 
   /// Keeps what a direction of axis `axis` of the block sees of a sphere, beside what the other
   /// direction does.
-  void keep(unsigned sphere, std::size_t axis, const GroupMask* mask);
+  /// @param upward which of the two directions
+  /// @param facing the texels that face it
+  void keep(
+    unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask);
 
   /// Adds the weights of a block. Its masks are gone then.
   void addBlock(const std::vector<AxisWeights>& axes, std::size_t subset);
 
   /// Goes on with new points in the texels.
   void nextEpoch();
+
+  /// What is out of core is summed for a part of the list at a time; null where all is in memory.
+  [[nodiscard]] LoggedVisibility* log() const { return log_.get(); }
 
   /// [slots] weights of the directions that are seen; null for a sphere that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
@@ -119,8 +121,8 @@ private:
 
   static constexpr std::size_t ChunkSpheres = 16;
 
-  /// Neighbouring spheres. Masks and marks are kept by axis: an axis writes to neighbours in
-  /// memory, and two axes never to the same byte.
+  /// In memory: neighbouring spheres. Masks and marks are kept by axis: an axis writes to
+  /// neighbours in memory, and two axes never to the same byte.
   struct Chunk
   {
     float* sums;      ///< [ChunkSpheres][slots]
@@ -157,7 +159,8 @@ private:
   std::vector<std::atomic<const GroupMask*>> exposures_; ///< by sphere: the bits of cut ones
   std::vector<std::atomic<Chunk*>> chunks_;              ///< by sphere / ChunkSpheres
   tbb::concurrent_vector<std::unique_ptr<CutSphere>> ownedCuts_;
-  std::vector<std::uint8_t> watched_; ///< flags by sphere
+  std::vector<std::uint8_t> watched_;     ///< flags by sphere
+  std::unique_ptr<LoggedVisibility> log_; ///< null: in chunks
 };
 }
 

@@ -163,10 +163,18 @@ public:
     for (int round = 0; round < Rounds; ++round)
     {
       const std::clock_t start = std::clock();
-      for (std::size_t i = 0; i < values_.size(); i += OcclusionTextures::BlockSize)
+      for (std::size_t i = 0; i < values_.size(); i += OcclusionLookup::Size)
       {
-        textures.lookUp(
-          particles_.data() + i, directions_.data() + i, OcclusionTextures::BlockSize, &values_[i]);
+        OcclusionLookup lookup;
+        for (std::size_t lane = 0; lane < OcclusionLookup::Size; ++lane)
+        {
+          lookup.particles[lane] = particles_[i + lane];
+          lookup.texels.x[lane] = directions_[i + lane].x;
+          lookup.texels.y[lane] = directions_[i + lane].y;
+          lookup.texels.z[lane] = directions_[i + lane].z;
+        }
+        textures.locate(lookup);
+        textures.finish(lookup, &values_[i]);
       }
       best = std::min(best, double(std::clock() - start) / CLOCKS_PER_SEC);
     }

@@ -2,11 +2,10 @@
 // Whatever fails in a bake: one error, the particles as they came, never part of a table, and the
 // next bake has the bits that it always had.
 #include "BakeFilterTestSupport.h"
+#include "BakeOutcome.h"
 #include "FaultInjection.h"
-#include "MemoryGrowth.h"
 
 #include "vtkCallbackCommand.h"
-#include "vtkCompositeDataIterator.h"
 #include "vtkDataArray.h"
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -54,68 +53,6 @@ protected:
   }
 };
 vtkStandardNewMacro(BakeUnderFault);
-
-std::vector<vtkPolyData*> blocksOf(vtkDataObject* data)
-{
-  auto* composite = vtkCompositeDataSet::SafeDownCast(data);
-  if (!composite)
-  {
-    return { vtkPolyData::SafeDownCast(data) };
-  }
-  std::vector<vtkPolyData*> blocks;
-  const auto leaves = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-  {
-    blocks.push_back(vtkPolyData::SafeDownCast(leaves->GetCurrentDataObject()));
-  }
-  return blocks;
-}
-
-void expectSameArrays(vtkFieldData* expected, vtkFieldData* found)
-{
-  ASSERT_EQ(found->GetNumberOfArrays(), expected->GetNumberOfArrays());
-  for (int i = 0; i < expected->GetNumberOfArrays(); ++i)
-  {
-    EXPECT_EQ(found->GetAbstractArray(i), expected->GetAbstractArray(i));
-  }
-}
-
-/// The very arrays of the input, no more and no less.
-void expectPassedOn(vtkDataObject* input, vtkDataObject* output)
-{
-  const auto expected = blocksOf(input);
-  const auto found = blocksOf(output);
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i)
-  {
-    ASSERT_TRUE(found[i]);
-    EXPECT_EQ(found[i]->GetPoints(), expected[i]->GetPoints());
-    expectSameArrays(expected[i]->GetPointData(), found[i]->GetPointData());
-    expectSameArrays(expected[i]->GetFieldData(), found[i]->GetFieldData());
-  }
-}
-
-/// All that a bake has added, as bytes; empty if any block lacks any of it.
-std::string bitsOf(vtkDataObject* output)
-{
-  std::string bits;
-  for (vtkPolyData* block : blocksOf(output))
-  {
-    vtkDataArray* arrays[] = { block->GetPointData()->GetArray("AmbientOcclusion"),
-      block->GetPointData()->GetArray("AmbientOcclusionTexture"),
-      block->GetFieldData()->GetArray("AmbientOcclusionTextures") };
-    for (vtkDataArray* array : arrays)
-    {
-      if (!array || !block->GetFieldData()->HasArray("AmbientOcclusionParameters"))
-      {
-        return {};
-      }
-      bits.append(static_cast<const char*>(array->GetVoidPointer(0)),
-        static_cast<std::size_t>(array->GetNumberOfValues()) * array->GetDataTypeSize());
-    }
-  }
-  return bits;
-}
 
 vtkSmartPointer<vtkMultiBlockDataSet> twoBlocks()
 {
@@ -360,59 +297,5 @@ TEST_P(BakeFaults, AbortsLeaveTheInputAndTheNextBakeItsBits)
   bake.filter->RemoveObserver(tag);
   EXPECT_GT(aborted, 0);
   EXPECT_TRUE(bake.bits() == whole);
-}
-
-/// What the filter may use, in megabytes above what the process has.
-class Budget
-{
-public:
-  explicit Budget(double megabytes)
-  {
-    const double kibibytes = 1024 * (residentMegabytes() + megabytes);
-    setenv(Variable, std::to_string(static_cast<long long>(kibibytes)).c_str(), 1);
-  }
-  ~Budget() { unsetenv(Variable); }
-  Budget(const Budget&) = delete;
-  Budget& operator=(const Budget&) = delete;
-
-private:
-  static constexpr const char* Variable = "PARTICLEOCCLUSION_MEMORY_LIMIT";
-};
-
-TEST(MemoryBudget, AutomaticTakesEmbreeWhereSweepDoesNotFit)
-{
-  const auto input = lattice(20);
-  const auto methodUnder = [&](int method, double megabytes, std::string& error)
-  {
-    const Budget budget(megabytes);
-    vtkNew<vtkSphereAmbientOcclusion> filter;
-    filter->SetInputData(input);
-    filter->SetTextureResolution(64);
-    filter->SetMethod(method);
-    // The method is chosen before the first report, so nothing need be baked.
-    vtkNew<vtkCallbackCommand> stop;
-    stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
-      { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
-    filter->AddObserver(vtkCommand::ProgressEvent, stop);
-    error = errorOf(filter);
-    expectPassedOn(input, filter->GetOutputDataObject(0));
-    return std::string(filter->GetMethodUsed());
-  };
-  std::string error;
-  // 8000 * 64 * 64 texels: 190 MB for Embree, 600 MB for Sweep at once, 270 MB in six parts (see
-  // bakeMemory).
-  EXPECT_EQ(methodUnder(Method::Automatic, 2000, error), "Sweep");
-  EXPECT_EQ(error, "");
-  EXPECT_EQ(methodUnder(Method::Automatic, 400, error), "Sweep"); // in parts
-  EXPECT_EQ(error, "");
-  EXPECT_EQ(methodUnder(Method::Automatic, 230, error), "Embree");
-  EXPECT_EQ(error, "");
-  for (const auto& [method, megabytes] :
-    { std::pair(Method::Automatic, 100), std::pair(Method::Sweep, 230),
-      std::pair(Method::Embree, 100), std::pair(Method::Reference, 100) })
-  {
-    methodUnder(method, megabytes, error);
-    EXPECT_NE(error.find("are free: lower TextureResolution"), std::string::npos) << error;
-  }
 }
 }

@@ -5,9 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <random>
+#include <vector>
 
 namespace
 {
@@ -181,7 +185,7 @@ protected:
   std::array<int, 3> middle(const OcclusionTextures& textures, const Material& material)
   {
     std::vector<std::uint8_t> rgba;
-    shadeFrame({ rays, frame, particles, textures, lights, shadows, material }, rgba);
+    shadeFrame({ rays, frame, particles.data(), textures, lights, shadows, material }, rgba);
     EXPECT_EQ(rgba[4 * 4 + 3], 255);
     return { rgba[16], rgba[17], rgba[18] };
   }
@@ -254,5 +258,112 @@ TEST_F(ShadedSphere, IsTheSameAtAnyScaleOfTheWorld)
     (void)traceFrame(SphereScene({ { 0, 0, 0, 1 } }), rays, {}, frame);
     EXPECT_EQ(middle(none, m), expected) << s;
   }
+}
+
+/// A frame of many spheres with gaps, of a size that is no multiple of a tile, with textures of
+/// some particles and means of the others, colours of particles, two lights and shadows of one.
+class ShadedFrame : public testing::Test
+{
+protected:
+  ShadedFrame()
+  {
+    std::mt19937 random(11);
+    const auto byte = [&random] { return static_cast<std::uint8_t>(random() % 256); };
+    std::uniform_real_distribution<float> place(-4, 4);
+    for (std::int64_t i = 0; i < Spheres; ++i)
+    {
+      spheres.push_back({ place(random), place(random), place(random), 0.5f });
+      particles.push_back(Spheres - 1 - i); // not the order of the spheres
+      rows.push_back(i % 3 == 0 ? -1 : static_cast<std::int32_t>(i % 5));
+      means.push_back(float(byte()) / 255);
+      colors.insert(colors.end(), { byte(), byte(), byte(), byte() });
+    }
+    std::generate_n(std::back_inserter(bytes), 5 * 64, byte);
+    textures = OcclusionTextures(8, bytes.data(), 0.9, rows.data(), means.data());
+    (void)traceFrame(SphereScene(spheres), rays, {}, frame);
+    lights[0].direction = normalized(Vec3d{ 1, -1, -1 });
+    lights[0].color = { 1, 0.5f, 0.25f };
+    lights[1].direction = normalized(Vec3d{ -1, 0.2, -0.5 });
+    lights[1].color = { 0.1f, 0.5f, 0.5f };
+    std::generate_n(std::back_inserter(shadows.lit.emplace_back()), frame.pixels(),
+      [&random] { return static_cast<std::uint8_t>(random() % 2); });
+  }
+
+  /// Of one pixel, by the formula.
+  [[nodiscard]] std::array<double, 4> expected(std::size_t pixel, const Material& m) const
+  {
+    const auto particle = static_cast<std::size_t>(particles[frame.sphere[pixel]]);
+    const Vec3f normal = frame.normal[pixel];
+    const double occlusion = m.mode == ShadingMode::DirectLight ? 1 : textures.at(particle, normal);
+    std::array<double, 4> rgba{ 0, 0, 0, m.translucent ? double(colors[4 * particle + 3]) : 255 };
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      double light = 0;
+      for (std::size_t i = 0; i < lights.size(); ++i)
+      {
+        const bool lit = i > 0 || shadows.lit[0][pixel] != 0;
+        const float color[] = { lights[i].color.x, lights[i].color.y, lights[i].color.z };
+        light += lit * std::max(0.0, -dot(normal.as<double>(), lights[i].direction)) * color[c];
+      }
+      const double share = m.mode == ShadingMode::AmbientOcclusion
+        ? occlusion
+        : m.ambient * occlusion + m.diffuse * occlusion * light;
+      rgba[c] = std::min(255.0, share * colors[4 * particle + c]);
+    }
+    return rgba;
+  }
+
+  static constexpr std::int64_t Spheres = 200;
+  std::vector<Sphere> spheres;
+  std::vector<std::int64_t> particles;
+  std::vector<std::int32_t> rows;
+  std::vector<float> means;
+  std::vector<std::uint8_t> colors, bytes;
+  OcclusionTextures textures;
+  PrimaryRays rays = *PrimaryRays::make(lookAtOrigin(true, 12, 0.4, 77, 53, 1, 30), Identity);
+  TracedFrame frame;
+  std::vector<Light> lights{ 2 };
+  ShadowMasks shadows;
+};
+
+TEST_F(ShadedFrame, FollowsTheFormulaInEachPixel)
+{
+  for (const ShadingMode mode :
+    { ShadingMode::DirectLight, ShadingMode::AmbientOcclusion, ShadingMode::Both })
+  {
+    Material m;
+    m.mode = mode;
+    m.ambient = 0.3;
+    m.diffuse = 0.9;
+    m.particleColors = colors.data();
+    m.translucent = mode == ShadingMode::Both;
+    std::vector<std::uint8_t> rgba(1);
+    shadeFrame({ rays, frame, particles.data(), textures, lights, shadows, m }, rgba);
+    ASSERT_EQ(rgba.size(), 4 * frame.pixels());
+    std::size_t hits = 0;
+    for (std::size_t pixel = 0; pixel < frame.pixels(); ++pixel)
+    {
+      const bool hit = frame.sphere[pixel] != SphereScene::None;
+      hits += hit;
+      const std::array<double, 4> value = hit ? expected(pixel, m) : std::array<double, 4>{};
+      for (std::size_t c = 0; c < 4; ++c)
+      {
+        ASSERT_NEAR(rgba[4 * pixel + c], value[c], 0.501) << "pixel " << pixel << ", channel " << c;
+      }
+    }
+    EXPECT_GT(hits, 1000u);
+    EXPECT_LT(hits, frame.pixels() - 500);
+  }
+}
+
+TEST_F(ShadedFrame, ParticlesInTheOrderOfSpheresNeedNoNumbers)
+{
+  std::iota(particles.begin(), particles.end(), 0);
+  Material m;
+  m.particleColors = colors.data();
+  std::vector<std::uint8_t> with, without;
+  shadeFrame({ rays, frame, particles.data(), textures, lights, shadows, m }, with);
+  shadeFrame({ rays, frame, nullptr, textures, lights, shadows, m }, without);
+  EXPECT_EQ(with, without);
 }
 }

@@ -81,29 +81,30 @@ TEST(SweepEstimator, GivesTheSameBitsForAnyNumberOfThreads)
   EXPECT_EQ(results[2].shares, results[0].shares);
 }
 
-TEST(SweepEstimator, GivesTheSameBitsInAnyNumberOfParts)
+TEST(SweepEstimator, GivesTheSameBitsOutOfCore)
 {
   std::vector<po::Sphere> spheres = mixedScene();
   addClosedShell(spheres, 30, 1, 3000);
+  spheres.insert(spheres.end(), spheres.begin(), spheres.begin() + 1500); // some are there twice
+  spheres.push_back(spheres[0]);
   const po::SphereCloud cloud = cloudOf(spheres);
   const po::BakeScene scene(cloud);
-  for (const double distance : { 0.0, 3.0 })
+  po::SweepOptions options;
+  options.outOfCore = true;
+  const po::SweepEstimator outOfCore(options);
+  const po::SweepEstimator inMemory;
+  for (const auto& [resolution, distance] :
+    { std::pair(16, 0.0), std::pair(16, 3.0), std::pair(5, 0.0), std::pair(37, 0.0) })
   {
-    po::BakeSettings settings = floatSettings(16, 49);
+    po::BakeSettings settings = floatSettings(resolution, 49);
     settings.maximumDistance = distance;
     settings.background = po::GradientBackground{ { 0, 0, 1 }, 0, 1 };
-    const Estimates whole = estimateAll(po::SweepEstimator(), scene, settings);
-    for (const int parts : { 2, 3, 7 })
-    {
-      po::SweepOptions options;
-      options.parts = parts;
-      const po::SweepEstimator sweep(options);
-      const Estimates divided = estimateAll(sweep, scene, settings);
-      EXPECT_EQ(divided.values, whole.values) << parts;
-      EXPECT_EQ(divided.shares, whole.shares) << parts;
-      EXPECT_GT(sweep.report().estimatedError, 0);
-      EXPECT_DOUBLE_EQ(sweep.bytesPerTexel() * parts, po::SweepEstimator().bytesPerTexel());
-    }
+    const Estimates whole = estimateAll(inMemory, scene, settings);
+    const Estimates logged = estimateAll(outOfCore, scene, settings);
+    EXPECT_EQ(logged.values, whole.values) << resolution << " " << distance;
+    EXPECT_EQ(logged.shares, whole.shares) << resolution << " " << distance;
+    EXPECT_GT(inMemory.report().estimatedError, 0);
+    EXPECT_EQ(outOfCore.report().estimatedError, inMemory.report().estimatedError);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace
@@ -70,8 +71,18 @@ Found find(int resolution, po::Vec3f direction)
   }
   po::findTexels(resolution, lookup);
   constexpr std::size_t Last = po::TexelLookup::Size - 1;
-  return { lookup.column0[Last], lookup.column1[Last], lookup.row0[Last], lookup.row1[Last],
-    lookup.columnWeight[Last], lookup.rowWeight[Last] };
+  std::array<int, 4> rows{}, columns{};
+  for (std::size_t k = 0; k < 4; ++k)
+  {
+    rows[k] = lookup.texel[k][Last] / resolution;
+    columns[k] = lookup.texel[k][Last] % resolution;
+  }
+  EXPECT_EQ(rows[0], rows[1]);
+  EXPECT_EQ(rows[2], rows[3]);
+  EXPECT_EQ(columns[0], columns[2]);
+  EXPECT_EQ(columns[1], columns[3]);
+  return { columns[0], columns[1], rows[0], rows[2], lookup.columnWeight[Last],
+    lookup.rowWeight[Last] };
 }
 
 TEST(TexelLookup, AgreesWithTheExactCoordinates)

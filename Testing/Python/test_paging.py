@@ -35,16 +35,21 @@ class Paging(unittest.TestCase):
     def setUp(self):
         test_representation.Representation.setUp(self)
         self.particles = programmable(BALL)
-        baked = simple.SphereAmbientOcclusion(Input=self.particles, TextureResolution=8, SamplesPerTexel=16)
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.file = os.path.join(folder.name, "textures.exr")
-        simple.SaveData(self.file, baked)
-        self.expected = self.look(baked, simple.Show(baked, self.view))
-        simple.Hide(baked, self.view)
+        self.expected = self.bake(self.file)
         self.display = simple.Show(self.particles, self.view)
 
     tearDown = test_representation.Representation.tearDown
+
+    def bake(self, file, **light):
+        """Writes the textures; returns their picture, drawn from the arrays of the filter."""
+        baked = simple.SphereAmbientOcclusion(Input=self.particles, TextureResolution=8, SamplesPerTexel=16, **light)
+        simple.SaveData(file, baked)
+        expected = self.look(baked, simple.Show(baked, self.view))
+        simple.Hide(baked, self.view)
+        return expected
 
     def look(self, source, display):
         display.SetRepresentationType("Ray-Traced Spheres")
@@ -67,6 +72,19 @@ class Paging(unittest.TestCase):
         self.assertEqual(size, resident * TEXTURE_BYTES)
         self.assertGreater(resident, 100)
         self.assertLess(resident, 0.7 * particles)
+
+    def test_light_that_is_baked_is_drawn_from_the_file_as_from_the_arrays(self):
+        """To two steps of 255 in each pixel, in bytes and in floats; the light and its shadows are in the textures."""
+        for encoding in ("UInt8Gamma2", "Float32Linear"):
+            with self.subTest(encoding):
+                file = self.file.replace(".exr", f"-{encoding}.exr")
+                expected = self.bake(file, BakeLight=1, LightDirection=[-1, -2, -1], LightIntensity=0.5,
+                                     Encoding=encoding)
+                self.assertGreater(differing(expected, self.expected), 0.3, "the light makes no difference")
+                self.display.TextureFile = file
+                self.assertEqual(differing(self.look(self.particles, self.display), expected), 0)
+                self.assertEqual(self.counters()[2], 0)
+                self.assertGreater(self.counters()[0], 100)
 
     def test_a_budget_limits_what_is_in_memory_and_the_rest_shows_means(self):
         self.display.TextureFile = self.file

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "LoggedVisibility.h"
+
+#include "MaskedSums.h"
+#include "TextureFormula.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <bitset>
+
+namespace po
+{
+namespace
+{
+constexpr std::size_t WantedParts = 256;
+/// Of a part.
+constexpr std::size_t LeastSums = std::size_t(1) << 18;
+constexpr std::size_t MostSums = std::size_t(1) << 23;
+/// Of a part: its places, and which of two directions, are told by 16 bits.
+constexpr std::size_t MostPlaces = std::size_t(1) << 15;
+
+constexpr std::uint16_t Upward = 0x8000;
+
+/// That all threads together gather before they write, and that are read at once: 8 MiB.
+constexpr std::size_t GatheredWords = std::size_t(1) << 22;
+constexpr std::size_t LeastBuffer = 512; // words
+constexpr std::size_t MostBuffer = 8192;
+
+std::size_t choosePlacesPerPart(std::size_t places, std::size_t slots)
+{
+  const std::size_t least = std::max<std::size_t>(1, LeastSums / slots);
+  const std::size_t most = std::max(least, std::min(MostPlaces, MostSums / slots));
+  return std::clamp(places / WantedParts, std::min(least, MostPlaces), std::min(most, MostPlaces));
+}
+
+std::size_t chooseBufferWords(std::size_t parts)
+{
+  const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  return std::clamp(
+    GatheredWords / (threads * std::max<std::size_t>(1, parts)), LeastBuffer, MostBuffer);
+}
+
+/// In the file a mask is: its place in the part, and the direction; bits by group that are set
+/// where some of the facing texels are hidden, and some are not; bits where none is hidden; and
+/// the groups of the first kind.
+std::size_t wordsOfBits(std::size_t groups)
+{
+  return (groups + 15) / 16;
+}
+
+bool isSet(const std::uint16_t* bits, std::size_t group)
+{
+  return (bits[group / 16] >> (group % 16) & 1) != 0;
+}
+
+void set(std::uint16_t* bits, std::size_t group)
+{
+  bits[group / 16] = static_cast<std::uint16_t>(bits[group / 16] | 1u << (group % 16));
+}
+
+/// Words of a mask behind its place.
+std::size_t wordsBehind(const std::uint16_t* bits, std::size_t wordsOfBits)
+{
+  std::size_t words = 2 * wordsOfBits;
+  for (std::size_t i = 0; i < wordsOfBits; ++i)
+  {
+    words += std::bitset<16>(bits[i]).count();
+  }
+  return words;
+}
+
+void decode(const std::uint16_t* bits, const std::vector<GroupMask>& facing, GroupMask* mask)
+{
+  const std::size_t size = wordsOfBits(facing.size());
+  const std::uint16_t* open = bits + size;
+  const std::uint16_t* part = open + size;
+  for (std::size_t g = 0; g < facing.size(); ++g)
+  {
+    const GroupMask whole = isSet(open, g) ? facing[g] : GroupMask(0);
+    mask[g] = isSet(bits, g) ? *part++ : whole;
+  }
+}
+}
+
+LoggedVisibility::LoggedVisibility(const SweepTexels& texels, const std::vector<unsigned>& spheres,
+  std::size_t size, const std::vector<unsigned>& watched)
+  : texels_(texels)
+  , placesPerPart_(choosePlacesPerPart(spheres.size(), texels.slots()))
+  , placeOf_(size, NoPlace)
+  , bufferWords_(chooseBufferWords(spheres.size() / placesPerPart_ + 1))
+  , buffers_(std::vector<Buffer>(spheres.size() / placesPerPart_ + 1))
+  , extents_(spheres.size() / placesPerPart_ + 1)
+{
+  for (unsigned place = 0; place < spheres.size(); ++place)
+  {
+    unsigned& first = placeOf_[spheres[place]];
+    if (first == NoPlace)
+    {
+      first = place;
+      continue;
+    }
+    std::vector<unsigned>& others = repeats_[spheres[place]];
+    const unsigned last = others.empty() ? first : others.back();
+    if (last / placesPerPart_ != place / placesPerPart_)
+    {
+      others.push_back(place);
+    }
+  }
+  for (const unsigned sphere : watched)
+  {
+    subsets_[placeOf_[sphere]];
+  }
+}
+
+void LoggedVisibility::keep(
+  unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask)
+{
+  const auto number = static_cast<std::uint32_t>(axes_.size() + axis);
+  write(placeOf_[sphere], number, upward, facing, mask);
+  if (!repeats_.empty())
+  {
+    const auto others = repeats_.find(sphere);
+    if (others != repeats_.end())
+    {
+      for (const unsigned place : others->second)
+      {
+        write(place, number, upward, facing, mask);
+      }
+    }
+  }
+}
+
+void LoggedVisibility::write(std::size_t place, std::uint32_t axis, bool upward,
+  const GroupMask* facing, const GroupMask* mask)
+{
+  const std::size_t part = place / placesPerPart_;
+  Buffer& buffer = buffers_.local()[part];
+  const std::size_t groups = texels_.groups();
+  const std::size_t size = wordsOfBits(groups);
+  if (buffer.axis != axis || buffer.words.size() + 1 + 2 * size + groups > bufferWords_)
+  {
+    flush(part, buffer);
+    buffer.axis = axis;
+  }
+  Words& words = buffer.words;
+  words.push_back(static_cast<std::uint16_t>(place % placesPerPart_ | (upward ? Upward : 0)));
+  const std::size_t first = words.size();
+  words.resize(first + 2 * size, 0);
+  for (std::size_t g = 0; g < groups; ++g)
+  {
+    if (mask[g] == 0)
+    {
+      continue;
+    }
+    if (mask[g] == facing[g])
+    {
+      set(words.data() + first + size, g);
+      continue;
+    }
+    set(words.data() + first, g);
+    words.push_back(mask[g]);
+  }
+}
+
+void LoggedVisibility::flush(std::size_t part, Buffer& buffer)
+{
+  if (buffer.words.empty())
+  {
+    buffer.words.reserve(bufferWords_);
+    return;
+  }
+  const auto count = static_cast<std::uint32_t>(buffer.words.size());
+  const std::uint64_t position = file_.append(buffer.words.data(), count * sizeof(std::uint16_t));
+  buffer.words.clear();
+  const std::lock_guard<std::mutex> lock(extentsMutex_);
+  extents_[part].push_back({ position, count, buffer.axis });
+}
+
+void LoggedVisibility::endBlock(const std::vector<AxisWeights>& axes, std::size_t subset)
+{
+  for (std::vector<Buffer>& buffers : buffers_)
+  {
+    for (std::size_t part = 0; part < buffers.size(); ++part)
+    {
+      flush(part, buffers[part]);
+    }
+  }
+  for (const AxisWeights& weights : axes)
+  {
+    axes_.push_back({ weights, subset });
+  }
+}
+
+void LoggedVisibility::load(std::size_t part)
+{
+  beginPart(part);
+  std::vector<Extent>& extents = extents_[part];
+  // Sums are added in the order of the axes, as in memory; what an axis sees of a particle in its
+  // two directions are different texels.
+  std::sort(extents.begin(), extents.end(),
+    [](const Extent& a, const Extent& b)
+    { return a.axis != b.axis ? a.axis < b.axis : a.position < b.position; });
+  const Extent* end = extents.data() + extents.size();
+  for (const Extent* first = extents.data(); first != end;)
+  {
+    std::size_t words = 0;
+    const Extent* last = first;
+    for (; last != end && (last == first || words + last->words <= GatheredWords / 8); ++last)
+    {
+      words += last->words;
+    }
+    addExtents(first, last);
+    first = last;
+  }
+}
+
+void LoggedVisibility::beginPart(std::size_t part)
+{
+  buffers_.clear(); // nothing is written any more
+  part_ = part;
+  seen_.assign(placesPerPart_, 0);
+  sums_.assign(placesPerPart_ * texels_.slots(), 0.0f);
+  subsetsOfPlace_.assign(placesPerPart_, nullptr);
+  for (auto& [place, subsets] : subsets_)
+  {
+    if (place / placesPerPart_ == part)
+    {
+      subsets = { std::vector<float>(ErrorSubsets * texels_.slots(), 0.0f) };
+      subsetsOfPlace_[place % placesPerPart_] = &subsets;
+    }
+  }
+}
+
+void LoggedVisibility::addExtents(const Extent* first, const Extent* last)
+{
+  Words words;
+  for (const Extent* extent = first; extent != last; ++extent)
+  {
+    const std::size_t start = words.size();
+    words.resize(start + extent->words);
+    file_.read(extent->position, words.data() + start, extent->words * sizeof(std::uint16_t));
+  }
+  // Each thread reads all masks and adds those of its own places.
+  const auto slices = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  tbb::parallel_for(std::size_t(0), slices,
+    [&](std::size_t slice)
+    {
+      const std::uint16_t* start = words.data();
+      for (const Extent* extent = first; extent != last; ++extent)
+      {
+        addMasks(
+          start, *extent, placesPerPart_ * slice / slices, placesPerPart_ * (slice + 1) / slices);
+        start += extent->words;
+      }
+    });
+}
+
+void LoggedVisibility::addMasks(
+  const std::uint16_t* words, const Extent& extent, std::size_t firstPlace, std::size_t lastPlace)
+{
+  const SweptAxis& axis = axes_[extent.axis];
+  const std::size_t size = wordsOfBits(texels_.groups());
+  std::vector<GroupMask> mask(texels_.groups());
+  for (const std::uint16_t* at = words; at != words + extent.words;)
+  {
+    const std::size_t place = *at & ~Upward;
+    const bool upward = (*at & Upward) != 0;
+    ++at;
+    if (place >= firstPlace && place < lastPlace)
+    {
+      decode(at, axis.weights.facing[upward ? 1 : 0], mask.data());
+      addMask(place, axis, mask.data());
+    }
+    at += wordsBehind(at, size);
+  }
+}
+
+void LoggedVisibility::addMask(std::size_t place, const SweptAxis& axis, const GroupMask* mask)
+{
+  seen_[place] = 1;
+  const float* weight = axis.weights.weight.data();
+  addMasked(texels_.groups(), mask, weight, sums_.data() + place * texels_.slots());
+  if (Subsets* subsets = subsetsOfPlace_[place])
+  {
+    subsets->seen = true;
+    addMasked(texels_.groups(), mask, weight, subsets->sums.data() + axis.subset * texels_.slots());
+  }
+}
+
+/// placesPerPart() where the sphere is not in the part that is loaded.
+std::size_t LoggedVisibility::placeInPart(unsigned sphere) const
+{
+  const unsigned first = placeOf_[sphere];
+  if (first != NoPlace && first / placesPerPart_ == part_)
+  {
+    return first % placesPerPart_;
+  }
+  const auto others = repeats_.find(sphere);
+  if (others != repeats_.end())
+  {
+    for (const unsigned place : others->second)
+    {
+      if (place / placesPerPart_ == part_)
+      {
+        return place % placesPerPart_;
+      }
+    }
+  }
+  return placesPerPart_;
+}
+
+const float* LoggedVisibility::sums(unsigned sphere) const
+{
+  const std::size_t place = placeInPart(sphere);
+  return place < seen_.size() && seen_[place] != 0 ? sums_.data() + place * texels_.slots()
+                                                   : nullptr;
+}
+
+const float* LoggedVisibility::subsetSums(unsigned sphere) const
+{
+  const auto found = subsets_.find(placeOf_[sphere]);
+  return found != subsets_.end() && found->second.seen ? found->second.sums.data() : nullptr;
+}
+}
