@@ -41,7 +41,7 @@ BakedLight::BakedLight(const BakeScene& scene, const std::vector<unsigned>& part
   , formula_(texels_, patterns_, UniformBackground{})
   , workspaces_([this] { return makeWorkspace(); })
 {
-  if (!scene.rays.hasMesh())
+  if (!scene.hasMesh())
   {
     sweep_.emplace(
       scene, particles, texels_, settings.seed, towards(*settings.light), distance_, progress);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DepthTiles.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace po
 {
@@ -15,45 +13,27 @@ constexpr double SpheresPerTile = 4096;
 constexpr float SmallestTileWidth = 16;
 constexpr float LargestTileWidth = 60; ///< so that the cells stay small
 constexpr double MostTilesPerSphere = 4;
+/// Spheres a patch should hold: 100 bytes each. The more patches there are the more often spheres
+/// near their edges, and the bounds of all, are looked at.
+constexpr double WantedPatches = 16;
+constexpr double FewestPerPatch = 1 << 16;
+constexpr double MostPerPatch = 1 << 18;
 }
 
-void DepthTiles::build(float reach)
+void DepthTiles::layOut(const ReceiverExtent& receivers, float reach)
 {
-  starts_.clear();
+  columns_ = rows_ = 0;
+  if (receivers.count == 0)
+  {
+    return;
+  }
   reach_ = reach;
-  const std::size_t receivers = findExtent();
-  if (receivers > 0)
-  {
-    layOut(receivers);
-    sortIntoTiles();
-  }
-}
-
-std::size_t DepthTiles::findExtent()
-{
-  lowX_ = lowY_ = std::numeric_limits<float>::max();
-  highX_ = highY_ = std::numeric_limits<float>::lowest();
-  std::size_t receivers = 0;
-  for (const Member& m : members_)
-  {
-    if (m.sameBand)
-    {
-      ++receivers;
-      lowX_ = std::min(lowX_, m.sphere->x);
-      lowY_ = std::min(lowY_, m.sphere->y);
-      highX_ = std::max(highX_, m.sphere->x);
-      highY_ = std::max(highY_, m.sphere->y);
-    }
-  }
-  return receivers;
-}
-
-void DepthTiles::layOut(std::size_t receivers)
-{
-  const float extentX = highX_ - lowX_;
-  const float extentY = highY_ - lowY_;
+  lowX_ = receivers.lowX;
+  lowY_ = receivers.lowY;
+  const float extentX = receivers.highX - receivers.lowX;
+  const float extentY = receivers.highY - receivers.lowY;
   const double area = static_cast<double>(extentX) * extentY;
-  const auto count = static_cast<double>(receivers);
+  const auto count = static_cast<double>(receivers.count);
   const auto wanted = static_cast<float>(std::sqrt(area * SpheresPerTile / count));
   // A stray sphere far away must not make the tiles so wide that all others share one, as long as
   // the number of tiles stays in proportion to the spheres.
@@ -64,17 +44,45 @@ void DepthTiles::layOut(std::size_t receivers)
   perWidth_ = 1 / width_;
   columns_ = 1 + static_cast<int>(extentX * perWidth_);
   rows_ = 1 + static_cast<int>(extentY * perWidth_);
+  choosePatches(count);
+}
+
+void DepthTiles::choosePatches(double receivers)
+{
+  const double perTile = std::max(1.0, receivers / (static_cast<double>(columns_) * rows_));
+  const double perPatch = std::clamp(receivers / WantedPatches, FewestPerPatch, MostPerPatch);
+  patchSide_ = std::max(1, static_cast<int>(std::sqrt(perPatch / perTile)));
+}
+
+std::size_t DepthTiles::patches() const
+{
+  const auto along = [this](int tiles)
+  { return static_cast<std::size_t>((tiles + patchSide_ - 1) / patchSide_); };
+  return along(columns_) * along(rows_);
+}
+
+void DepthTiles::begin(std::size_t patch)
+{
+  const int across = (columns_ + patchSide_ - 1) / patchSide_;
+  const int left = static_cast<int>(patch % static_cast<std::size_t>(across)) * patchSide_;
+  const int bottom = static_cast<int>(patch / static_cast<std::size_t>(across)) * patchSide_;
+  patch_ = { left, std::min(left + patchSide_, columns_), bottom,
+    std::min(bottom + patchSide_, rows_) };
+  members_.clear();
 }
 
 std::size_t DepthTiles::homeOf(const ProjectedSphere& s) const
 {
   const int column = static_cast<int>((s.x - lowX_) * perWidth_);
   const int row = static_cast<int>((s.y - lowY_) * perWidth_);
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-    static_cast<std::size_t>(column);
+  const bool isHere =
+    column >= patch_.left && column < patch_.right && row >= patch_.bottom && row < patch_.top;
+  const int place = (row - patch_.bottom) * (patch_.right - patch_.left) + column - patch_.left;
+  return isHere ? static_cast<std::size_t>(place) : hasReceivers_.size();
 }
 
-DepthTiles::Range DepthTiles::tilesWithin(const ProjectedSphere& s, float reach) const
+/// Those of the patch that a square around a place meets.
+DepthTiles::Range DepthTiles::tilesWithin(float x, float y, float reach) const
 {
   // Rounding of a tile's edge must not lose a neighbour that just touches a receiver beyond it.
   const float wide = reach * (1 + 1e-5f) + width_ * 1e-5f;
@@ -85,21 +93,42 @@ DepthTiles::Range DepthTiles::tilesWithin(const ProjectedSphere& s, float reach)
     const float tile = std::clamp(position * perWidth_ + 1, 0.0f, static_cast<float>(end));
     return static_cast<int>(tile);
   };
-  return { first(s.x - wide - lowX_, columns_), last(s.x + wide - lowX_, columns_),
-    first(s.y - wide - lowY_, rows_), last(s.y + wide - lowY_, rows_) };
+  return { std::max(patch_.left, first(x - wide - lowX_, columns_)),
+    std::min(patch_.right, last(x + wide - lowX_, columns_)),
+    std::max(patch_.bottom, first(y - wide - lowY_, rows_)),
+    std::min(patch_.top, last(y + wide - lowY_, rows_)) };
 }
 
-/// Calls action(tile) for every tile whose receivers the member can hide, its own included.
+bool DepthTiles::mayReach(float x, float y, float distance, float radius) const
+{
+  // Rounding of either place must not lose a sphere.
+  const float slack = 1e-6f * (std::abs(x) + std::abs(y) + distance);
+  return !tilesWithin(x, y, distance + slack + radius + reach_).isEmpty();
+}
+
+void DepthTiles::add(const ProjectedSphere& sphere, bool sameBand)
+{
+  const Range range = tilesWithin(sphere.x, sphere.y, sphere.radius + reach_);
+  if (!range.isEmpty())
+  {
+    const auto inPatch = [](int tile, int first)
+    { return static_cast<std::uint16_t>(tile - first); };
+    members_.push_back(
+      { sphere, sameBand, inPatch(range.left, patch_.left), inPatch(range.right, patch_.left),
+        inPatch(range.bottom, patch_.bottom), inPatch(range.top, patch_.bottom) });
+  }
+}
+
+/// Calls action(tile) for every tile of the patch whose receivers the member can hide, its own
+/// included.
 template <typename Action>
 void DepthTiles::visitTiles(const Member& m, Action action) const
 {
-  const Range range = tilesWithin(*m.sphere, m.sphere->radius + reach_);
-  for (int row = range.bottom; row < range.top; ++row)
+  const auto columns = static_cast<std::size_t>(patch_.right - patch_.left);
+  for (std::size_t row = m.bottom; row < m.top; ++row)
   {
-    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_);
-    for (int column = range.left; column < range.right; ++column)
+    for (std::size_t tile = row * columns + m.left; tile < row * columns + m.right; ++tile)
     {
-      const std::size_t tile = start + static_cast<std::size_t>(column);
       if (hasReceivers_[tile] != 0)
       {
         action(tile);
@@ -110,13 +139,15 @@ void DepthTiles::visitTiles(const Member& m, Action action) const
 
 void DepthTiles::sortIntoTiles()
 {
-  const auto tiles = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  const auto tiles = static_cast<std::size_t>(patch_.right - patch_.left) *
+    static_cast<std::size_t>(patch_.top - patch_.bottom);
   hasReceivers_.assign(tiles, 0);
   for (const Member& m : members_)
   {
-    if (m.sameBand)
+    const std::size_t home = m.sameBand ? homeOf(m.sphere) : tiles;
+    if (home < tiles)
     {
-      hasReceivers_[homeOf(*m.sphere)] = 1;
+      hasReceivers_[home] = 1;
     }
   }
   starts_.assign(tiles + 1, 0);
@@ -132,20 +163,20 @@ void DepthTiles::sortIntoTiles()
   next_.assign(starts_.begin(), starts_.end() - 1);
   for (const Member& m : members_)
   {
-    const std::size_t home = m.sameBand ? homeOf(*m.sphere) : tiles;
+    const std::size_t home = m.sameBand ? homeOf(m.sphere) : tiles;
     const TileRole elsewhere = m.sameBand ? TileRole::Halo : TileRole::Other;
     visitTiles(m,
       [&](std::size_t tile) {
-        entries_[next_[tile]++] = { *m.sphere, tile == home ? TileRole::Receiver : elsewhere };
+        entries_[next_[tile]++] = { m.sphere, tile == home ? TileRole::Receiver : elsewhere };
       });
   }
 }
 
 DepthTile DepthTiles::tile(std::size_t index) const
 {
-  const auto columns = static_cast<std::size_t>(columns_);
-  const std::size_t row = index / columns;
-  const std::size_t column = index % columns;
+  const auto columns = static_cast<std::size_t>(patch_.right - patch_.left);
+  const std::size_t row = index / columns + static_cast<std::size_t>(patch_.bottom);
+  const std::size_t column = index % columns + static_cast<std::size_t>(patch_.left);
   return { lowX_ + static_cast<float>(column) * width_, lowY_ + static_cast<float>(row) * width_,
     width_, entries_.data() + starts_[index], entries_.data() + starts_[index + 1] };
 }

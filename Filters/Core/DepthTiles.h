@@ -4,8 +4,10 @@
 
 #include "SweepScene.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace po
@@ -41,50 +43,72 @@ struct DepthTile
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(last - first); }
 };
 
-/// The spheres of one band, as receivers, cut into square tiles; each receiver is in one tile.
+/// Where the receivers of a projection lie, and how many they are.
+struct ReceiverExtent
+{
+  float lowX = std::numeric_limits<float>::max();
+  float lowY = std::numeric_limits<float>::max();
+  float highX = std::numeric_limits<float>::lowest();
+  float highY = std::numeric_limits<float>::lowest();
+  std::size_t count = 0;
+
+  void add(float x, float y)
+  {
+    lowX = std::min(lowX, x);
+    lowY = std::min(lowY, y);
+    highX = std::max(highX, x);
+    highY = std::max(highY, y);
+    ++count;
+  }
+};
+
+/// The spheres of one band, as receivers, cut into square tiles; each receiver is in one tile. The
+/// tiles of a patch are filled at a time, so that memory does not grow with the spheres.
 class DepthTiles
 {
 public:
-  /// @param spheres in the order of their indices
-  /// @param leftOut whether a sphere of another band can hide nothing, by its index
-  template <typename LeftOut>
-  void build(
-    const std::vector<ProjectedSphere>& spheres, const SweepScene::Band& band, LeftOut leftOut)
-  {
-    members_.clear();
-    for (const ProjectedSphere& s : spheres)
-    {
-      const bool same = s.index >= band.first && s.index < band.last;
-      if (same || !leftOut(s.index))
-      {
-        members_.push_back({ &s, same });
-      }
-    }
-    build(band.largestRadius);
-  }
+  /// Lays tiles over the receivers, and forgets those before.
+  /// @param reach the largest radius of a receiver
+  void layOut(const ReceiverExtent& receivers, float reach);
 
+  [[nodiscard]] std::size_t patches() const;
+
+  /// Empties the tiles and goes to a patch.
+  void begin(std::size_t patch);
+
+  /// May a sphere whose centre is up to `distance` from that place, and which is no larger than
+  /// `radius`, hide a receiver of the patch, or be one?
+  [[nodiscard]] bool mayReach(float x, float y, float distance, float radius) const;
+
+  /// Adds a sphere, in the order of the indices, if it can hide a receiver of the patch or is one.
+  void add(const ProjectedSphere& sphere, bool sameBand);
+
+  /// Sorts what was added into the tiles of the patch.
+  void sortIntoTiles();
+
+  /// Tiles of the patch.
   [[nodiscard]] std::size_t size() const { return starts_.empty() ? 0 : starts_.size() - 1; }
   [[nodiscard]] DepthTile tile(std::size_t index) const;
 
 private:
   struct Member
   {
-    const ProjectedSphere* sphere;
+    ProjectedSphere sphere;
     bool sameBand;
+    std::uint16_t left, right, bottom, top; ///< half-open range of tiles, counted in the patch
   };
 
   /// Half-open range of tiles.
   struct Range
   {
     int left, right, bottom, top;
+
+    [[nodiscard]] bool isEmpty() const { return left >= right || bottom >= top; }
   };
 
-  void build(float reach);
-  std::size_t findExtent();
-  void layOut(std::size_t receivers);
-  void sortIntoTiles();
+  void choosePatches(double receivers);
   [[nodiscard]] std::size_t homeOf(const ProjectedSphere& sphere) const;
-  [[nodiscard]] Range tilesWithin(const ProjectedSphere& sphere, float reach) const;
+  [[nodiscard]] Range tilesWithin(float x, float y, float reach) const;
   template <typename Action>
   void visitTiles(const Member& member, Action action) const;
 
@@ -93,10 +117,12 @@ private:
   std::vector<std::size_t> starts_;
   std::vector<std::size_t> next_;
   std::vector<TileSphere> entries_;
-  float lowX_ = 0, lowY_ = 0, highX_ = 0, highY_ = 0; ///< of the receivers' centres
-  float reach_ = 0;                                   ///< largest radius of a receiver
+  float lowX_ = 0, lowY_ = 0; ///< of the receivers' centres
+  float reach_ = 0;           ///< largest radius of a receiver
   float width_ = 0, perWidth_ = 0;
   int columns_ = 0, rows_ = 0;
+  int patchSide_ = 1; ///< tiles
+  Range patch_{};     ///< its tiles
 };
 }
 

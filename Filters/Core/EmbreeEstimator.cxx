@@ -314,6 +314,7 @@ int embreeDirectionsForSamples(int samplesPerTexel)
 void EmbreeEstimator::estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
   const BakeSettings& settings, Progress& progress, const Sink& sink, BakeCounters& counters) const
 {
+  scene.prepareRays();
   EmbreeBake bake(scene, particles, settings, options_, progress);
   bake.run(sink);
   bake.addTo(counters);

@@ -20,7 +20,7 @@ SweepSkips exactSkips()
 LightSweep::LightSweep(const BakeScene& scene, const std::vector<unsigned>& particles,
   const SweepTexels& texels, std::uint64_t seed, Vec3d direction, float distance,
   Progress& progress)
-  : order_(scene.rays.set())
+  : order_(scene.set())
   , alone_(order_.size(), 0)
   , records_(scene, order_, texels, seed, order_.flagsOf(particles), alone_, {})
 {

@@ -174,11 +174,24 @@ constexpr double BytesPerSphere = 300;
 
 BakeScene::BakeScene(
   const SphereCloud& sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
-  : cloud(sphereCloud)
-  , rays(joined(sphereCloud, occluders), occluders.mesh, SphereScene::Queries::Occlusion)
-  , overlaps(rays.set())
+  : set_(std::make_shared<const SphereSet>(joined(sphereCloud, occluders)))
+  , hasMesh_(!occluders.mesh.triangles.empty())
+  , cloud(sphereCloud)
+  , overlaps(*set_)
   , group(processes)
 {
+  if (hasMesh_)
+  {
+    rays_ = std::make_unique<SphereScene>(set_, occluders.mesh, SphereScene::Queries::Occlusion);
+  }
+}
+
+void BakeScene::prepareRays() const
+{
+  if (!rays_)
+  {
+    rays_ = std::make_unique<SphereScene>(set_, OccluderMesh{}, SphereScene::Queries::Occlusion);
+  }
 }
 
 std::uint64_t BakeScene::randomKey(unsigned particle) const

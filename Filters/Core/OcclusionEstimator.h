@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace po
@@ -24,8 +25,9 @@ namespace po
 ///
 /// Where several processes bake together, each has a scene of all particles that matter to its own,
 /// and lists its own when it asks an estimator.
-struct BakeScene
+class BakeScene
 {
+public:
   explicit BakeScene(const SphereCloud& cloud, const Occluders& occluders = {},
     const ProcessGroup& group = ProcessGroup::alone());
 
@@ -37,8 +39,22 @@ struct BakeScene
   /// and whoever bakes it.
   [[nodiscard]] std::uint64_t randomKey(unsigned particle) const;
 
+  [[nodiscard]] const SphereSet& set() const { return *set_; } ///< all spheres
+  [[nodiscard]] bool hasMesh() const { return hasMesh_; }      ///< are there triangles?
+
+  /// Builds what rays() returns, if that was not done yet; before threads of the caller's begin. A
+  /// bake without rays does without its memory. Throws what SphereScene throws.
+  void prepareRays() const;
+  /// All spheres, and the triangles, once they are prepared; with triangles they always are.
+  [[nodiscard]] const SphereScene& rays() const { return *rays_; }
+
+private:
+  std::shared_ptr<const SphereSet> set_;
+  bool hasMesh_;
+  mutable std::unique_ptr<const SphereScene> rays_;
+
+public:
   const SphereCloud& cloud;  ///< the particles alone
-  SphereScene rays;          ///< all spheres, and the triangles
   OverlapFinder overlaps;    ///< of all spheres
   const ProcessGroup& group; ///< who bakes together
 };

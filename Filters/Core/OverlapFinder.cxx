@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlapFinder.h"
 
+#include "BrickOrder.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,35 @@
 
 namespace po
 {
+/// The spheres of a brick, in boxes of some that are near each other.
+struct SphereBoxes
+{
+  /// In a box. A hierarchy over single spheres would take more memory than these themselves, and
+  /// half a second to build for a million.
+  static constexpr std::size_t Spheres = 8;
+
+  struct Places
+  {
+    const unsigned* first;
+    const unsigned* last;
+    [[nodiscard]] const unsigned* begin() const { return first; }
+    [[nodiscard]] const unsigned* end() const { return last; }
+  };
+
+  const Brick* brick;
+  std::vector<unsigned> places; ///< box after box
+
+  [[nodiscard]] unsigned count() const
+  {
+    return static_cast<unsigned>((places.size() + Spheres - 1) / Spheres);
+  }
+  [[nodiscard]] Places in(unsigned box) const
+  {
+    const std::size_t first = Spheres * box;
+    return { places.data() + first, places.data() + std::min(first + Spheres, places.size()) };
+  }
+};
+
 namespace
 {
 /// A box edge moved outward by two units in the last place of the largest term, so that rounding
@@ -19,28 +50,43 @@ float outward(float center, float reach)
   return center + reach + std::copysign(slack, reach);
 }
 
-void sphereBounds(const RTCBoundsFunctionArguments* arguments)
+void boxBounds(const RTCBoundsFunctionArguments* arguments)
 {
-  const Sphere& s = static_cast<const Sphere*>(arguments->geometryUserPtr)[arguments->primID];
-  RTCBounds& box = *arguments->bounds_o;
-  box.lower_x = outward(s.x, -s.radius);
-  box.lower_y = outward(s.y, -s.radius);
-  box.lower_z = outward(s.z, -s.radius);
-  box.upper_x = outward(s.x, +s.radius);
-  box.upper_y = outward(s.y, +s.radius);
-  box.upper_z = outward(s.z, +s.radius);
+  const auto& boxes = *static_cast<const SphereBoxes*>(arguments->geometryUserPtr);
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  RTCBounds box{ infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0 };
+  for (const unsigned place : boxes.in(arguments->primID))
+  {
+    const Sphere& s = boxes.brick->spheres[place];
+    box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
+    box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
+    box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
+    box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
+    box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
+    box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
+  }
+  *arguments->bounds_o = box;
 }
 
-/// What Embree calls back with: the place of a box in a brick stands for a sphere of the set.
+/// What Embree calls back with: a box of a brick stands for some spheres of the set.
 struct Query
 {
   const SphereSet* spheres;
   unsigned id;
-  const Brick* brick; ///< that is being searched
+  const SphereBoxes* boxes; ///< that are being searched
 
-  [[nodiscard]] unsigned found(const RTCPointQueryFunctionArguments* arguments) const
+  /// Calls action(id) for the other spheres of a box.
+  template <typename Action>
+  void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
-    return brick->id(arguments->primID);
+    for (const unsigned place : boxes->in(arguments->primID))
+    {
+      const unsigned other = boxes->brick->id(place);
+      if (other != id)
+      {
+        action(other);
+      }
+    }
   }
   [[nodiscard]] Vec3d offsetTo(unsigned other) const
   {
@@ -78,22 +124,22 @@ void addOverlap(double r, Vec3d d, double radius, Overlaps& result)
   }
 }
 
-bool visitNeighbour(RTCPointQueryFunctionArguments* arguments)
+bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
 {
   auto* query = static_cast<OverlapQuery*>(arguments->userPtr);
-  const unsigned other = query->found(arguments);
-  if (other != query->id)
+  const std::vector<Sphere>& spheres = query->spheres->spheres();
+  try
   {
-    const std::vector<Sphere>& spheres = query->spheres->spheres();
-    try
-    {
-      addOverlap(
-        spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
-    }
-    catch (const std::bad_alloc&)
-    {
-      query->outOfMemory = true;
-    }
+    query->forOthers(arguments,
+      [&](unsigned other)
+      {
+        addOverlap(
+          spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
+      });
+  }
+  catch (const std::bad_alloc&)
+  {
+    query->outOfMemory = true;
   }
   return false; // the radius of the query did not change
 }
@@ -112,17 +158,15 @@ struct NearQuery : Query
   std::vector<Neighbour>* nearest; ///< a heap, the farthest on top
 };
 
-/// Keeps the nearest. Boxes reach farther than their spheres: the gap decides.
-bool visitNear(RTCPointQueryFunctionArguments* arguments)
+/// Keeps a sphere if it is among the nearest.
+void keepNear(const NearQuery& query, unsigned other)
 {
-  const auto* query = static_cast<const NearQuery*>(arguments->userPtr);
-  const unsigned other = query->found(arguments);
-  const Neighbour found{ other, gapTo(*query, other) };
-  std::vector<Neighbour>& nearest = *query->nearest;
-  const bool full = nearest.size() == query->limit;
-  if (found.id == query->id || found.gap > query->reach || (full && !(found < nearest.front())))
+  const Neighbour found{ other, gapTo(query, other) };
+  std::vector<Neighbour>& nearest = *query.nearest;
+  const bool full = nearest.size() == query.limit;
+  if (found.gap > query.reach || (full && !(found < nearest.front())))
   {
-    return false;
+    return;
   }
   if (full)
   {
@@ -131,6 +175,12 @@ bool visitNear(RTCPointQueryFunctionArguments* arguments)
   }
   nearest.push_back(found);
   std::push_heap(nearest.begin(), nearest.end());
+}
+
+bool visitNear(RTCPointQueryFunctionArguments* arguments)
+{
+  const auto* query = static_cast<const NearQuery*>(arguments->userPtr);
+  query->forOthers(arguments, [query](unsigned other) { keepNear(*query, other); });
   return false;
 }
 
@@ -143,14 +193,18 @@ struct AnyQuery : Query
 bool visitAny(RTCPointQueryFunctionArguments* arguments)
 {
   auto* query = static_cast<AnyQuery*>(arguments->userPtr);
-  const unsigned other = query->found(arguments);
-  if (query->isFound || other == query->id || gapTo(*query, other) > query->reach)
+  if (query->isFound)
   {
     return false;
   }
-  query->isFound = true;
-  arguments->query->radius = 0; // there is nothing more to look for
-  return true;
+  query->forOthers(arguments,
+    [query](unsigned other)
+    { query->isFound = query->isFound || gapTo(*query, other) <= query->reach; });
+  if (query->isFound)
+  {
+    arguments->query->radius = 0; // there is nothing more to look for
+  }
+  return query->isFound;
 }
 
 /// Is the point within `reach` of what the brick holds? Rounding may make it so, never prevent it.
@@ -173,15 +227,19 @@ OverlapFinder::OverlapFinder(const SphereSet& spheres)
   }
 }
 
+OverlapFinder::~OverlapFinder() = default;
+
 void OverlapFinder::addBoxes(const Brick& brick)
 {
+  boxes_.push_back(std::make_unique<const SphereBoxes>(SphereBoxes{ &brick, orderInSpace(brick) }));
+  const SphereBoxes& boxes = *boxes_.back();
   scenes_.push_back(makeScene(device_.get()));
   const GeometryHandle geometry =
     makeGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER, "EMBREE_GEOMETRY_USER");
-  rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(brick.count));
-  rtcSetGeometryUserData(geometry.get(), const_cast<Sphere*>(brick.spheres));
+  rtcSetGeometryUserPrimitiveCount(geometry.get(), boxes.count());
+  rtcSetGeometryUserData(geometry.get(), const_cast<SphereBoxes*>(&boxes));
   rtcSetGeometryBoundsFunction(
-    geometry.get(), [](const RTCBoundsFunctionArguments* a) { sphereBounds(a); }, nullptr);
+    geometry.get(), [](const RTCBoundsFunctionArguments* a) { boxBounds(a); }, nullptr);
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scenes_.back().get(), geometry.get());
   commitScene(device_.get(), scenes_.back(), "building the search structure for overlaps");
@@ -198,7 +256,7 @@ void OverlapFinder::search(
   for (std::size_t i = 0; i < scenes_.size(); ++i)
   {
     const Brick& brick = spheres_->bricks()[i];
-    query.brick = &brick;
+    query.boxes = boxes_[i].get();
     if (scenes_.size() > 1 && !isWithin(brick, center, radius))
     {
       continue;
@@ -223,7 +281,7 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
   result.buried = false;
   result.caps.clear();
   OverlapQuery query{ {}, &result, false };
-  search(id, spheres_->spheres()[id].radius, visitNeighbour, query);
+  search(id, spheres_->spheres()[id].radius, visitOverlaps, query);
   if (query.outOfMemory)
   {
     throw std::bad_alloc();

@@ -6,6 +6,7 @@
 #include "SphereSet.h"
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace po
@@ -38,14 +39,20 @@ struct Neighbour
   }
 };
 
+struct SphereBoxes;
+
 /// Finds the spheres that overlap a sphere, or come near it, for any mix of radii.
 ///
 /// Embree's point query looks the neighbours up in a hierarchy of boxes; it does not see sphere
-/// points (Embree 3 and 4), so the boxes are a user geometry. The spheres must outlive the finder.
+/// points (Embree 3 and 4), so the boxes are a user geometry. Eight spheres share a box: the
+/// hierarchy takes 13 bytes a sphere. The spheres must outlive the finder.
 class OverlapFinder
 {
 public:
   explicit OverlapFinder(const SphereSet& spheres);
+  ~OverlapFinder();
+  OverlapFinder(const OverlapFinder&) = delete;
+  OverlapFinder& operator=(const OverlapFinder&) = delete;
 
   /// The overlaps of sphere `id`. `result` is passed in to keep its memory.
   /// A sphere that coincides with this one (same centre and radius) buries nothing: both surfaces
@@ -66,7 +73,8 @@ private:
 
   const SphereSet* spheres_;
   DeviceHandle device_;
-  std::vector<SceneHandle> scenes_; ///< by brick
+  std::vector<std::unique_ptr<const SphereBoxes>> boxes_; ///< by brick
+  std::vector<SceneHandle> scenes_;                       ///< by brick
 };
 }
 

@@ -155,7 +155,7 @@ ParticleView::ParticleView(const BakeScene& scene, float distance, RayShare shar
 void ParticleView::begin(unsigned id)
 {
   id_ = id;
-  const SphereSet& set = scene_.rays.set();
+  const SphereSet& set = scene_.set();
   self_ = set.inBrick(id);
   reach_ = distance_ / self_.radius;
   const float near = std::min(NearReach, reach_);
@@ -169,7 +169,7 @@ void ParticleView::begin(unsigned id)
   }
   const bool full = found_.size() == NearLimit;
   const bool nearMesh =
-    scene_.rays.isMeshWithin(set.spheres()[id].center(), (1 + near) * self_.radius);
+    scene_.rays().isMeshWithin(set.spheres()[id].center(), (1 + near) * self_.radius);
   needsRays_ = full || nearMesh || near < reach_;
   const bool crowded = full && found_.back().gap < CloseReach * self_.radius;
   shareHere_ = nearMesh || crowded ? RayShare::One : share_;
@@ -212,7 +212,7 @@ bool ParticleView::hideBehindNear(const SharedDirection& direction, GroupMask* m
 void ParticleView::trace(const SharedDirection& direction, Random& random, GroupMask* mask)
 {
   const Squares& squares = squaresOf(shareHere_);
-  RayPacket packet(scene_.rays, direction.towardsLight.as<float>(), distance_, id_);
+  RayPacket packet(scene_.rays(), direction.towardsLight.as<float>(), distance_, id_);
   for (const std::uint32_t group : direction.facing.facingGroups)
   {
     const std::size_t first = group * GroupSize;

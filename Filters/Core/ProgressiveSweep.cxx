@@ -96,7 +96,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
   const BakeSettings& settings, const SweepSkips& skips, Watch watch, Records records)
   : settings_(settings)
   , particles_(std::move(particles))
-  , order_(scene.rays.set())
+  , order_(scene.set())
   , texels_(settings.textureResolution)
   , watched_(watchedSpheres(order_, particles_, settings.seed, watch))
   , alone_(aloneFlags(

@@ -62,7 +62,7 @@ double gatherLight(const Plan& plan, unsigned id, const TexelRay* first, const T
   for (; first != last; ++first)
   {
     const TexelRay& ray = *first;
-    if (!plan.scene.rays.occluded(ray.origin, ray.direction, plan.rayLength, id))
+    if (!plan.scene.rays().occluded(ray.origin, ray.direction, plan.rayLength, id))
     {
       light += plan.uniform ? 1 : luminance(plan.settings.background, ray.direction.as<double>());
     }
@@ -140,6 +140,7 @@ std::size_t chunkSize(const Plan& plan)
 void ReferenceEstimator::estimate(const BakeScene& scene, const std::vector<unsigned>& particles,
   const BakeSettings& settings, Progress& progress, const Sink& sink, BakeCounters& counters) const
 {
+  scene.prepareRays();
   const Plan plan = makePlan(scene, settings);
   const std::size_t chunk = chunkSize(plan);
   tbb::enumerable_thread_specific<Workspace> workspaces;

@@ -78,7 +78,7 @@ bool ReferenceRays::isCovered(int row, int column, Workspace& work) const
 void ReferenceRays::addSet(unsigned id, const TexelPatch& patch, Random& random, Workspace& work,
   std::vector<TexelRay>& rays) const
 {
-  const Sphere sphere = scene_.rays.set().inBrick(id);
+  const Sphere sphere = scene_.set().inBrick(id);
   randomPermutation(random, work.pairing);
   const int samples = strata_.size();
   for (int k = 0; k < samples; ++k)

@@ -152,13 +152,14 @@ bool mayMeet(const Brick& brick, Vec3d origin, Vec3f direction, double distance)
 }
 }
 
-SphereScene::SphereScene(SphereSet set, const OccluderMesh& mesh, Queries queries)
-  : device_(makeDevice(set.size() + mesh.triangles.size()))
+SphereScene::SphereScene(
+  std::shared_ptr<const SphereSet> set, const OccluderMesh& mesh, Queries queries)
+  : device_(makeDevice(set->size() + mesh.triangles.size()))
   , set_(std::move(set))
   , hasMesh_(!mesh.triangles.empty())
-  , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(set_))
+  , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(*set_))
 {
-  for (const Brick& brick : set_.bricks())
+  for (const Brick& brick : set_->bricks())
   {
     scenes_.push_back(makeScene(device_.get()));
     if (queries == Queries::All)
@@ -237,8 +238,8 @@ unsigned SphereScene::traceAll(const Rays& rays) const
 /// Brick by brick, each relative to its own origin.
 unsigned SphereScene::traceBricks(const Rays& rays) const
 {
-  const std::vector<Brick>& bricks = set_.bricks();
-  const Vec3d home = rays.own == None ? Vec3d() : bricks[set_.brickOf(rays.own)].origin;
+  const std::vector<Brick>& bricks = set_->bricks();
+  const Vec3d home = rays.own == None ? Vec3d() : bricks[set_->brickOf(rays.own)].origin;
   std::array<Vec3f, PacketSize> origins;
   Rays moved = rays;
   moved.origins = origins.data();

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -47,8 +48,12 @@ public:
 
   /// Builds the acceleration structure in parallel. An empty scene is allowed. The mesh is copied.
   /// Throws std::runtime_error or std::bad_alloc when Embree cannot.
-  explicit SphereScene(
-    SphereSet set, const OccluderMesh& mesh = {}, Queries queries = Queries::All);
+  explicit SphereScene(std::shared_ptr<const SphereSet> set, const OccluderMesh& mesh = {},
+    Queries queries = Queries::All);
+  explicit SphereScene(SphereSet set, const OccluderMesh& mesh = {}, Queries queries = Queries::All)
+    : SphereScene(std::make_shared<const SphereSet>(std::move(set)), mesh, queries)
+  {
+  }
   explicit SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh = {})
     : SphereScene(SphereSet(std::move(spheres)), mesh)
   {
@@ -60,8 +65,8 @@ public:
   /// triangles have the geometry id TriangleGeometry.
   [[nodiscard]] RTCScene handle(std::size_t brick = 0) const { return scenes_[brick].get(); }
 
-  [[nodiscard]] const SphereSet& set() const { return set_; }
-  [[nodiscard]] const std::vector<Sphere>& spheres() const { return set_.spheres(); }
+  [[nodiscard]] const SphereSet& set() const { return *set_; }
+  [[nodiscard]] const std::vector<Sphere>& spheres() const { return set_->spheres(); }
   [[nodiscard]] bool hasMesh() const { return hasMesh_; }
 
   /// Is anything hit between the origin and `distance`?
@@ -107,7 +112,7 @@ private:
   [[nodiscard]] unsigned traceBricks(const Rays& rays) const;
 
   DeviceHandle device_;
-  SphereSet set_;
+  std::shared_ptr<const SphereSet> set_;
   bool hasMesh_;
   float rayStart_;                  ///< where rays from a sphere's surface begin
   std::vector<SceneHandle> scenes_; ///< by brick; the only one holds the triangles too

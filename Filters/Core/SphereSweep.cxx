@@ -31,6 +31,14 @@ constexpr int FullDirections = 32;
 constexpr double WorthwhileShare = 0.15;
 constexpr double WorthwhileWithMasks = 0.45;
 
+/// In which directions a sphere takes part.
+enum : std::uint8_t
+{
+  Never,
+  WhereAllDo,
+  Always ///< once it was seen
+};
+
 bool equalRadii(const SweepScene::Band& band)
 {
   return band.largestRadius <= band.smallestRadius * (1 + 1e-6f);
@@ -54,12 +62,10 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   , everSeen_(scene.size())
   , tileSweeps_([&records] { return TileWorkspace(records); })
 {
-  for (unsigned index = 0; index < scene.size(); ++index)
+  for (const std::uint8_t isAlone : alone)
   {
-    if (alone[index] == 0)
-    {
-      all_.push_back(index);
-    }
+    takesPart_.push_back(isAlone != 0 ? Never : WhereAllDo);
+    all_ += isAlone != 0 ? 0 : 1;
   }
 }
 
@@ -106,7 +112,7 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset,
   records_.addBlock(weights, subset);
   for (const AxisJob& job : jobs)
   {
-    neverSeen_ += job.full ? 0 : job.directions.size() * (scene_.size() - seen_.size());
+    neverSeen_ += job.full ? 0 : job.directions.size() * (scene_.size() - seen_);
   }
   directions_ += static_cast<int>(2 * axes.size());
   ++blocks_;
@@ -186,12 +192,13 @@ AxisWeights SphereSweep::weightsOf(const AxisJob& job) const
 
 void SphereSweep::finishBlock()
 {
-  seen_.clear();
-  for (unsigned i = 0; i < everSeen_.size(); ++i)
+  seen_ = 0;
+  for (std::size_t i = 0; i < everSeen_.size(); ++i)
   {
     if (everSeen_[i].load(std::memory_order_relaxed) != 0)
     {
-      seen_.push_back(i);
+      takesPart_[i] = Always;
+      ++seen_;
     }
   }
   // The first block shows whether closed cells are worth their cost where all spheres take part,
@@ -225,22 +232,61 @@ SweepCounters SphereSweep::counters(bool full) const
   return sum;
 }
 
-/// @param origin that floats are relative to
-void SphereSweep::project(
-  const AxisJob& job, Vec3d origin, std::vector<ProjectedSphere>& projected) const
+bool SphereSweep::takesPart(unsigned sphere, const AxisJob& job) const
 {
-  const auto add = [&](unsigned index)
+  return takesPart_[sphere] >= (job.full ? WhereAllDo : Always);
+}
+
+ReceiverExtent SphereSweep::extentOf(const SweepScene::Band& band, const AxisJob& job) const
+{
+  ReceiverExtent extent;
+  for (unsigned index = band.first; index < band.last; ++index)
   {
-    const Sphere& s = scene_.sphere(index);
-    const Vec3d c = scene_.center(index) - origin;
-    projected.push_back(
-      { static_cast<float>(dot(c, job.basis.x)), static_cast<float>(dot(c, job.basis.y)),
-        static_cast<float>(dot(c, job.axis)), s.radius, index });
+    if (takesPart(index, job))
+    {
+      const Vec3d c = scene_.center(index) - band.origin;
+      extent.add(static_cast<float>(dot(c, job.basis.x)), static_cast<float>(dot(c, job.basis.y)));
+    }
+  }
+  return extent;
+}
+
+/// Projects the spheres that matter to the tiles of the patch; floats are relative to the origin of
+/// the band.
+/// @param seen of the bands before
+void SphereSweep::gather(
+  const SweepScene::Band& band, const AxisJob& job, const SeenMarks& seen, DepthTiles& tiles) const
+{
+  const bool bounded = std::isfinite(distance_);
+  const auto project = [&](Vec3d center, float radius, unsigned index)
+  {
+    const Vec3d c = center - band.origin;
+    return ProjectedSphere{ static_cast<float>(dot(c, job.basis.x)),
+      static_cast<float>(dot(c, job.basis.y)), static_cast<float>(dot(c, job.axis)), radius,
+      index };
   };
-  const std::vector<unsigned>& partakers = job.full ? all_ : seen_;
-  projected.clear();
-  projected.reserve(partakers.size());
-  std::for_each(partakers.begin(), partakers.end(), add);
+  for (unsigned i = 0; i < scene_.blocks().size(); ++i)
+  {
+    const SweepScene::Block& block = scene_.blocks()[i];
+    const ProjectedSphere middle = project(block.middle, block.radius, 0);
+    if (!tiles.mayReach(middle.x, middle.y, block.distance, block.radius))
+    {
+      continue;
+    }
+    const unsigned first = i * SweepScene::BlockSize;
+    const unsigned last =
+      std::min(first + SweepScene::BlockSize, static_cast<unsigned>(scene_.size()));
+    for (unsigned index = first; index < last; ++index)
+    {
+      // One of another band that was not seen hides nothing.
+      const bool hidden = !bounded && index < band.first && seen[index] == 0;
+      if (takesPart(index, job) && !hidden)
+      {
+        tiles.add(project(scene_.center(index), scene_.sphere(index).radius, index),
+          index >= band.first && index < band.last);
+      }
+    }
+  }
 }
 
 void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const
@@ -267,14 +313,8 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   {
     buildOffsetMasks(job, work);
   }
-  const Vec3d* origin = nullptr;
   for (const SweepScene::Band& band : scene_.bands())
   {
-    if (origin == nullptr || !(*origin == band.origin))
-    {
-      origin = &band.origin;
-      project(job, *origin, work.projected);
-    }
     sweepBand(band, job, work, progress);
     if (progress.aborted())
     {
@@ -288,15 +328,25 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
       everSeen_[i].store(1, std::memory_order_relaxed);
     }
   }
-  progress.advance(job.directions.size() * (scene_.size() - work.projected.size()));
+  progress.advance(job.directions.size() * (scene_.size() - (job.full ? all_ : seen_)));
 }
 
 void SphereSweep::sweepBand(
   const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress)
 {
-  const bool bounded = std::isfinite(distance_);
-  work.tiles.build(work.projected, band,
-    [&](unsigned index) { return !bounded && index < band.first && work.seen[index] == 0; });
+  work.tiles.layOut(extentOf(band, job), band.largestRadius);
+  for (std::size_t patch = 0; patch < work.tiles.patches() && !progress.aborted(); ++patch)
+  {
+    work.tiles.begin(patch);
+    gather(band, job, work.seen, work.tiles);
+    work.tiles.sortIntoTiles();
+    sweepTiles(band, job, work, progress);
+  }
+}
+
+void SphereSweep::sweepTiles(
+  const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress)
+{
   const auto sweepTile = [&](std::size_t index)
   {
     const DepthTile tile = work.tiles.tile(index);

@@ -52,7 +52,7 @@ public:
   [[nodiscard]] int directions() const { return directions_; }
   [[nodiscard]] SweepCounters counters() const;
   /// Those that take part.
-  [[nodiscard]] std::size_t spheres() const { return all_.size(); }
+  [[nodiscard]] std::size_t spheres() const { return all_; }
   /// Spheres left out since no direction had shown them, summed over the directions.
   [[nodiscard]] std::uint64_t neverSeen() const { return neverSeen_; }
   /// Directions not swept since the background is black there.
@@ -73,7 +73,6 @@ private:
   /// Memory of an axis that is being swept.
   struct Workspace
   {
-    std::vector<ProjectedSphere> projected;
     SeenMarks seen;
     DepthTiles tiles;
     std::vector<OffsetMasks> offsetMasks = std::vector<OffsetMasks>(2);
@@ -99,7 +98,12 @@ private:
   void sweepAxis(AxisJob& job, Progress& progress);
   void sweepBand(
     const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);
-  void project(const AxisJob& job, Vec3d origin, std::vector<ProjectedSphere>& projected) const;
+  void sweepTiles(
+    const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);
+  [[nodiscard]] bool takesPart(unsigned sphere, const AxisJob& job) const;
+  [[nodiscard]] ReceiverExtent extentOf(const SweepScene::Band& band, const AxisJob& job) const;
+  void gather(const SweepScene::Band& band, const AxisJob& job, const SeenMarks& seen,
+    DepthTiles& tiles) const;
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
   [[nodiscard]] std::size_t nextPattern();
   void finishBlock();
@@ -114,8 +118,9 @@ private:
   bool useOffsetMasks_;
   std::array<bool, 2> closedCellsPay_; ///< where only spheres ever seen take part, where all do
   std::vector<std::atomic<std::uint8_t>> everSeen_;
-  std::vector<unsigned> all_;  ///< the spheres that take part
-  std::vector<unsigned> seen_; ///< the spheres that were ever seen, up to the last block
+  std::vector<std::uint8_t> takesPart_; ///< by sphere, see below
+  std::size_t all_ = 0;                 ///< spheres that take part
+  std::size_t seen_ = 0; ///< of these, those that were ever seen, up to the last block
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   tbb::enumerable_thread_specific<TileWorkspace> tileSweeps_;
   std::vector<std::uint32_t> patternOrder_; ///< those to come

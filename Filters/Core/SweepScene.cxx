@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepScene.h"
 
-#include "MortonCurve.h"
+#include "BrickOrder.h"
 
 #include <tbb/parallel_sort.h>
 
@@ -44,19 +44,6 @@ struct Place
     return numbers(*this) < numbers(other);
   }
 };
-
-/// Through the bounding box of a brick.
-MortonCurve curveThrough(const Brick& brick)
-{
-  Vec3f low = brick.spheres->center();
-  Vec3f high = low;
-  for (const Sphere* s = brick.spheres; s != brick.spheres + brick.count; ++s)
-  {
-    low = { std::min(low.x, s->x), std::min(low.y, s->y), std::min(low.z, s->z) };
-    high = { std::max(high.x, s->x), std::max(high.y, s->y), std::max(high.z, s->z) };
-  }
-  return { low, std::max({ high.x - low.x, high.y - low.y, high.z - low.z }) };
-}
 
 /// The octave of a radius, counted down from the largest: equal radii must never fall on both sides
 /// of an edge.
@@ -156,6 +143,26 @@ SweepScene::SweepScene(const SphereSet& set)
     band.smallestRadius = std::min(band.smallestRadius, s.radius);
     band.largestRadius = std::max(band.largestRadius, s.radius);
   }
+  for (unsigned first = 0; first < size(); first += BlockSize)
+  {
+    addBlock(first, std::min(first + BlockSize, static_cast<unsigned>(size())));
+  }
+}
+
+void SweepScene::addBlock(unsigned first, unsigned last)
+{
+  Vec3d low = center(first);
+  Vec3d high = low;
+  float radius = 0;
+  for (unsigned i = first; i < last; ++i)
+  {
+    const Vec3d c = center(i);
+    low = { std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z) };
+    high = { std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z) };
+    radius = std::max(radius, sphere(i).radius);
+  }
+  const double distance = 0.5 * length(high - low);
+  blocks_.push_back({ 0.5 * (low + high), static_cast<float>(distance * (1 + 1e-6)), radius });
 }
 
 std::vector<std::uint8_t> SweepScene::flagsOf(const std::vector<unsigned>& sources) const

@@ -28,6 +28,15 @@ public:
     Vec3d origin; ///< of the brick: what is near to these spheres is projected relative to it
   };
 
+  /// Some spheres that follow each other, so that they are mostly near each other.
+  struct Block
+  {
+    Vec3d middle;
+    float distance; ///< of the farthest centre from it, rounded up
+    float radius;   ///< the largest one
+  };
+  static constexpr unsigned BlockSize = 64;
+
   /// The set must outlive this.
   explicit SweepScene(const SphereSet& set);
 
@@ -41,6 +50,8 @@ public:
                                      : set_.center(source_[index]);
   }
   [[nodiscard]] const std::vector<Band>& bands() const { return bands_; }
+  /// Spheres [BlockSize i, BlockSize (i + 1)) are those of block i.
+  [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
   /// The place of a sphere in the set that this was made from, and back.
   [[nodiscard]] unsigned source(unsigned index) const { return source_[index]; }
@@ -50,9 +61,12 @@ public:
   [[nodiscard]] std::vector<std::uint8_t> flagsOf(const std::vector<unsigned>& sources) const;
 
 private:
+  void addBlock(unsigned first, unsigned last);
+
   const SphereSet& set_;
   std::vector<Sphere> spheres_;
   std::vector<Band> bands_;
+  std::vector<Block> blocks_;
   std::vector<unsigned> source_;
   std::vector<unsigned> indexOf_;
 };

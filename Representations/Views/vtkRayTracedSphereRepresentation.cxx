@@ -1,60 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkRayTracedSphereRepresentation.h"
 
-#include "BlockLooks.h"
 #include "ControllerGroup.h"
 #include "GatheredParticles.h"
-#include "LayersFile.h"
 #include "MapperCropping.h"
-#include "ParticleDelivery.h"
-#include "RadiusChoice.h"
-#include "Refinement.h"
 #include "SilhouetteVisibility.h"
 #include "SphereRenderer.h"
-#include "Tracked.h"
 #include "WholeSet.h"
+#include "vtkRayTracedSphereRepresentationInternals.h"
 
 #include "vtkActor.h"
 #include "vtkAlgorithm.h"
 #include "vtkDataAssemblyUtilities.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMath.h"
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
-#include "vtkPVRenderView.h"
-#include "vtkPolyData.h"
 #include "vtkRayTracedSphereMapper.h"
 #include "vtkRenderer.h"
-#include "vtkSmartPointer.h"
-#include "vtkTimeStamp.h"
-#include "vtkWeakPointer.h"
 
 #include <string>
 
 vtkStandardNewMacro(vtkRayTracedSphereRepresentation);
-
-struct vtkRayTracedSphereRepresentation::Internals
-{
-  explicit Internals(vtkRayTracedSphereMapper* mapper)
-    : Refinement(mapper)
-  {
-    vtkMath::UninitializeBounds(this->Bounds);
-  }
-
-  vtkSmartPointer<vtkPolyData> Particles;
-  vtkSmartPointer<vtkDataObject> Piece; ///< the particles as they are delivered
-  po::DeliveredParticles Delivered;
-  po::RadiusChoice Radii;
-  double Bounds[6]; ///< of the spheres, radii included, before the actor's matrix
-  vtkTimeStamp BoundsTime;
-  po::Tracked<po::CropSettings> Crop;
-  po::AppliedBlockLooks Blocks;
-  po::LayersFile Layers;
-  po::Refinement Refinement;
-  vtkWeakPointer<vtkPVRenderView> View;
-};
 
 vtkRayTracedSphereRepresentation::vtkRayTracedSphereRepresentation()
   : Internal(std::make_unique<Internals>(this->Mapper))
@@ -76,6 +44,7 @@ bool vtkRayTracedSphereRepresentation::AddToView(vtkView* view)
   this->Internal->View = renderView;
   renderView->GetRenderer()->AddActor(this->Actor);
   this->Internal->Refinement.begin(renderView);
+  this->Internal->Sight.begin(renderView);
   renderView->GetRenderer()->AddViewProp(this->Silhouettes);
   renderView->RegisterPropForHardwareSelection(this, this->Actor);
   return this->Superclass::AddToView(view);
@@ -90,6 +59,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
   }
   renderView->GetRenderer()->RemoveActor(this->Actor);
   this->Internal->Refinement.end();
+  this->Internal->Sight.end();
   renderView->GetRenderer()->RemoveViewProp(this->Silhouettes);
   this->Silhouettes->SetRenderer(nullptr);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
@@ -272,69 +242,6 @@ void vtkRayTracedSphereRepresentation::SetDensity(double density)
 const char* vtkRayTracedSphereRepresentation::GetRadiusUsed()
 {
   return this->Internal->Radii.used().c_str();
-}
-
-// Cropping takes effect when the view is rendered next; nothing is updated for it.
-
-void vtkRayTracedSphereRepresentation::AddCropRange(
-  const char* array, int component, double low, double high)
-{
-  this->Internal->Crop.change().moreRanges.push_back({ array ? array : "", component, low, high });
-}
-
-void vtkRayTracedSphereRepresentation::RemoveAllCropRanges()
-{
-  this->Internal->Crop.change().moreRanges.clear();
-}
-
-void vtkRayTracedSphereRepresentation::SetCropArray(
-  int, int, int, int association, const char* name)
-{
-  const bool ofPoints = association == vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  const bool isOne = name && std::string(name) != po::RadiusSettings::NoArray;
-  this->Internal->Crop.change().range.array = ofPoints && isOne ? name : "";
-}
-
-void vtkRayTracedSphereRepresentation::SetCropComponent(int component)
-{
-  this->Internal->Crop.change().range.component = component;
-}
-
-void vtkRayTracedSphereRepresentation::SetCropRange(double low, double high)
-{
-  po::CropSettings& crop = this->Internal->Crop.change();
-  crop.range.low = low;
-  crop.range.high = high;
-}
-
-void vtkRayTracedSphereRepresentation::SetCropPlane(bool on)
-{
-  this->Internal->Crop.change().plane = on;
-}
-
-void vtkRayTracedSphereRepresentation::SetCropPlaneOrigin(double x, double y, double z)
-{
-  this->Internal->Crop.change().planeOrigin = { x, y, z };
-}
-
-void vtkRayTracedSphereRepresentation::SetCropPlaneNormal(double x, double y, double z)
-{
-  this->Internal->Crop.change().planeNormal = { x, y, z };
-}
-
-void vtkRayTracedSphereRepresentation::SetCropBox(bool on)
-{
-  this->Internal->Crop.change().box = on;
-}
-
-void vtkRayTracedSphereRepresentation::SetCropBoxOrigin(double x, double y, double z)
-{
-  this->Internal->Crop.change().boxOrigin = { x, y, z };
-}
-
-void vtkRayTracedSphereRepresentation::SetCropBoxSize(double x, double y, double z)
-{
-  this->Internal->Crop.change().boxSize = { x, y, z };
 }
 
 void vtkRayTracedSphereRepresentation::SetActiveAssembly(const char* name)

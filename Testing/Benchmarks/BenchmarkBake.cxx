@@ -164,7 +164,7 @@ private:
 
   [[nodiscard]] static bool bakeSeesHit(const Workload& work, unsigned id, const po::TexelRay& ray)
   {
-    return work.scene.rays.occluded(
+    return work.scene.rays().occluded(
       ray.origin, ray.direction, std::numeric_limits<float>::infinity(), id);
   }
 

@@ -221,7 +221,7 @@ TEST(Occluders, PacketsOfRaysSayWhatSingleRaysSay)
   unsigned stopped = 0;
   for (unsigned id = 0; id < 50; ++id)
   {
-    const po::Sphere& sphere = scene.rays.spheres()[id];
+    const po::Sphere& sphere = scene.set().spheres()[id];
     const po::Vec3d direction = po::textureDirection({ random.uniform(), random.uniform() });
     const unsigned count = 1 + id % po::SphereScene::PacketSize;
     const float distance = id % 2 == 0 ? 1.0f : std::numeric_limits<float>::infinity();
@@ -235,10 +235,10 @@ TEST(Occluders, PacketsOfRaysSayWhatSingleRaysSay)
       }
     }
     const unsigned packet =
-      scene.rays.occludedFrom(origins.data(), count, direction.as<float>(), distance, id);
+      scene.rays().occludedFrom(origins.data(), count, direction.as<float>(), distance, id);
     for (unsigned i = 0; i < count; ++i)
     {
-      const bool single = scene.rays.occluded(origins[i], direction.as<float>(), distance, id);
+      const bool single = scene.rays().occluded(origins[i], direction.as<float>(), distance, id);
       EXPECT_EQ((packet >> i & 1) != 0, single) << id << " " << i;
       stopped += single;
     }

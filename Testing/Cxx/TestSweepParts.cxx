@@ -260,7 +260,7 @@ TEST(VisibilityRecords, ThreadsMayMeetASphereAtOnce)
   // on only with a finished answer, and all get the same.
   const po::SphereCloud cloud = cloudOf(syntheticScene(po::SyntheticFamily::Overlap, 4000));
   const po::BakeScene scene(cloud);
-  const po::SweepScene order(scene.rays.set());
+  const po::SweepScene order(scene.set());
   const po::SweepTexels texels(16);
   const std::vector<std::uint8_t> listed(order.size(), 1);
   const std::vector<std::uint8_t> alone(order.size(), 0);

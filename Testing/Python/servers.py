@@ -24,9 +24,12 @@ def mpi_environment():
 
 
 @contextlib.contextmanager
-def running(command):
-    """Starts a pvserver, maybe under mpiexec; gives its port, and stops it in the end."""
-    server = subprocess.Popen([*command, "--server-port=0"], stdout=subprocess.PIPE,
+def running(command, kind="server"):
+    """Starts a pvserver, maybe under mpiexec; gives its port, and stops it in the end.
+
+    kind: "data-server" or "render-server" for pvdataserver and pvrenderserver.
+    """
+    server = subprocess.Popen([*command, f"--{kind}-port=0"], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, env=mpi_environment(),
                               start_new_session=True)
     try:
@@ -35,7 +38,7 @@ def running(command):
             if accepting:
                 yield int(accepting.group(1))
                 return
-        raise SystemExit("pvserver did not start")
+        raise SystemExit(f"{command[-1]} did not start")
     finally:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(server.pid, signal.SIGKILL)

@@ -85,6 +85,22 @@ class Display(unittest.TestCase):
         self.assertEqual(list(display.CropBoxSize), [3, 3, 3])
         self.assertEqual(list(display.CropPlaneOrigin), [1.5, 1.5, 1.5])
 
+    def test_crop_domains_follow_array_and_component_in_display_and_filter(self):
+        source = programmable(VECTORS)
+        baked = simple.SphereAmbientOcclusion(Input=source, TextureResolution=4, SamplesPerTexel=4)
+        display = self.show(source)
+        for proxy in (display, baked):
+            domain = proxy.SMProxy.GetProperty("CropRange").GetDomain("range")
+            limits = lambda: (domain.GetMinimum(0), domain.GetMaximum(0))
+            self.assertFalse(domain.GetMinimumExists(0), "no array, no range")
+            proxy.CropArray = "value"
+            self.assertEqual(limits(), (0, 63))
+            proxy.CropArray = "vector"
+            self.assertEqual(limits(), (0, 5), "the magnitude")
+            proxy.CropComponent = 1
+            self.assertEqual(limits(), (0, 4))
+            self.assertEqual(list(proxy.CropRange), [-1e300, 1e300], "what is cropped is up to the user")
+
     def test_crop_by_magnitude_component_plane_and_box(self):
         display = self.show(programmable(VECTORS))
         shown = lambda: (picture(self.view), self.counter(display, "NumberOfShownSpheres"))[1]

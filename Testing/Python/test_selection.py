@@ -90,14 +90,31 @@ class Selection(unittest.TestCase):
     def test_the_tooltip_is_that_of_the_particle_under_the_pointer(self):
         self.check_tooltips()
 
-    def test_what_is_cropped_has_no_tooltip(self):
+    def crop(self):
+        """Hides the half in front; returns which particles are left."""
         self.display.CropPlane = 1
         self.display.CropPlaneOrigin = list(self.centers.mean(axis=0))
         self.display.CropPlaneNormal = [0, 0, -1]
         simple.Render(self.view)
-        self.check_tooltips(self.centers[:, 2] <= self.centers[:, 2].mean())
+        return self.centers[:, 2] <= self.centers[:, 2].mean()
+
+    def uncrop(self):
         self.display.CropPlane = 0
         simple.Render(self.view)
+
+    def test_what_is_cropped_has_no_tooltip(self):
+        self.check_tooltips(self.crop())
+        self.uncrop()
+
+    def test_marks_of_what_is_selected_and_cropped_cover_nothing(self):
+        simple.SetActiveView(self.view)
+        simple.SelectSurfacePoints(Rectangle=[0, 0, SIZE[0] - 1, SIZE[1] - 1], View=self.view)
+        selected = list(self.baked.GetSelectionInput(0).Input[0].IDs)[1::2]
+        shown = self.crop()
+        self.assertGreater((~shown[selected]).sum(), 500, "they are marked in front of what is shown")
+        self.check_tooltips(shown)
+        simple.ClearSelection(self.baked)
+        self.uncrop()
 
     def test_the_spreadsheet_lists_what_is_selected_in_the_view(self):
         sheet = simple.CreateView("SpreadSheetView")
@@ -119,7 +136,7 @@ class Selection(unittest.TestCase):
         table = sheet.GetClientSideObject()
         rows = [table.GetValueByName(row, "vtkOriginalPointIds").ToInt() for row in range(table.GetNumberOfRows())]
         self.assertEqual(sorted(rows), ids)
-        simple.ClearSelection(self.baked)  # what is selected is marked by points, which the pointer finds too
+        simple.ClearSelection(self.baked)
 
 
 result = unittest.main(exit=False).result

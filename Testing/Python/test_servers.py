@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin in pvbatch and in a pvserver that a pvpython client connects to, with remote and with local
-rendering: the same picture everywhere, with textures that were baked and with those of a file.
+"""The plugin in pvbatch and in servers that a pvpython client connects to, a pvserver as well as a data server and
+a render server apart, with remote and with local rendering: the same picture everywhere, with textures that were
+baked and with those of a file.
 
 Two ranks with a part of the particles each draw the lines that one rank draws.
 
-Usage: pvpython test_servers.py PVPYTHON PVBATCH PVSERVER MPIEXEC
+Usage: pvpython test_servers.py PVPYTHON PVBATCH PVSERVER MPIEXEC PVDATASERVER PVRENDERSERVER
 """
 import os
 import subprocess
@@ -21,9 +22,9 @@ SESSION = """
 import os
 from paraview.simple import *
 plugin = os.environ["PARTICLEOCCLUSION_PLUGIN"]
-port = {port}
-if port:
-    Connect("localhost", port)
+ports = {ports}  # none, that of a server, or those of a data server and of a render server
+if ports:
+    Connect(*(argument for port in ports for argument in ("localhost", port)))
     LoadPlugin(plugin, remote=True, ns=globals())
 LoadPlugin(plugin, remote=False, ns=globals())
 particles = OpenDataFile(r"{data}")
@@ -32,7 +33,7 @@ view = CreateView("RenderViewWithSilhouettes")
 view.ViewSize = [300, 200]
 view.OrientationAxesVisibility = 0
 view.UseFXAA = 0
-if port:
+if ports:
     view.RemoteRenderThreshold = {threshold}
 display = Show(baked, view)
 display.SetRepresentationType("Ray-Traced Spheres")
@@ -49,7 +50,7 @@ paged.SetRepresentationType("Ray-Traced Spheres")
 paged.TextureFile = r"{picture}-textures.exr"
 ColorBy(paged, ("POINTS", "charge"))
 SaveScreenshot(r"{picture}-paged.png", view, ImageResolution=[300, 200])
-if port:
+if ports:
     Disconnect()
 """
 
@@ -98,12 +99,12 @@ def run_ranks(mpiexec, pvbatch, folder, ranks):
     return picture
 
 
-def run_session(executable, folder, name, port=0, threshold=0):
+def run_session(executable, folder, name, ports=(), threshold=0):
     """Runs the session; returns the path of its picture."""
     picture = os.path.join(folder, name + ".png")
     script = os.path.join(folder, name + ".py")
     with open(script, "w", encoding="utf-8") as file:
-        file.write(SESSION.format(port=port, threshold=threshold, picture=picture,
+        file.write(SESSION.format(ports=ports, threshold=threshold, picture=picture,
                                   data=os.path.join(DATA, "molecule.vtp")))
     done = subprocess.run([executable, script], capture_output=True, text=True, timeout=100, check=False)
     # A server goes on with what it was asked for after its client has left.
@@ -116,17 +117,26 @@ def run_session(executable, folder, name, port=0, threshold=0):
 
 def with_server(pvserver, pvpython, folder, name, threshold):
     with servers.running([pvserver]) as port:
-        return run_session(pvpython, folder, name, port, threshold)
+        return run_session(pvpython, folder, name, [port], threshold)
+
+
+def with_separate_servers(data_server, render_server, pvpython, folder, name, threshold):
+    """One process has the data and another one draws them."""
+    with servers.running([data_server], "data-server") as data_port, \
+            servers.running([render_server], "render-server") as render_port:
+        return run_session(pvpython, folder, name, [data_port, render_port], threshold)
 
 
 def main():
-    pvpython, pvbatch, pvserver, mpiexec = sys.argv[1:5]
+    pvpython, pvbatch, pvserver, mpiexec, data_server, render_server = sys.argv[1:7]
     with tempfile.TemporaryDirectory() as folder:
         reference = run_session(pvpython, folder, "pvpython")
         others = [
             run_session(pvbatch, folder, "pvbatch"),
             with_server(pvserver, pvpython, folder, "pvserver-remote-rendering", 0),
             with_server(pvserver, pvpython, folder, "pvserver-local-rendering", 1000),
+            with_separate_servers(data_server, render_server, pvpython, folder, "separate-remote-rendering", 0),
+            with_separate_servers(data_server, render_server, pvpython, folder, "separate-local-rendering", 1000),
         ]
         for picture in others:
             images.compare_files(picture, reference)
