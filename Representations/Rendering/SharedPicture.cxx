@@ -75,8 +75,16 @@ std::optional<SilhouetteScale> agreedScale(const SilhouetteOffer& own, const Pro
   constexpr std::size_t Words = 4;
   const auto size =
     static_cast<std::uint64_t>(own.width) << 32U | static_cast<std::uint64_t>(own.height);
-  const ProcessGroup::Words all = group.gather(
-    { own.canShare ? 1U : 0U, size, wordOf(own.scale.meanRadius), wordOf(own.scale.depthRange) });
+  ProcessGroup::Words all;
+  try
+  {
+    all = group.gather(
+      { own.canShare ? 1U : 0U, size, wordOf(own.scale.meanRadius), wordOf(own.scale.depthRange) });
+  }
+  catch (const WorkStopped&)
+  {
+    return std::nullopt; // for all of them
+  }
   SilhouetteScale scale;
   bool agreed = true;
   for (std::size_t at = 0; at < all.size(); at += Words)
