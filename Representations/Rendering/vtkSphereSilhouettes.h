@@ -25,6 +25,7 @@
 #include <string>
 
 class vtkActor;
+class vtkMultiProcessController;
 class vtkRenderer;
 
 namespace po
@@ -52,6 +53,24 @@ public:
   void RemoveAllActors();
   ///@}
 
+  ///@{
+  /// Controller: the processes that draw parts of the spheres each, in pictures that are composited
+  /// afterwards. Lines are those of one process that has all spheres; there are none while frames
+  /// are coarser than the picture to be in time. All processes must draw each picture, those
+  /// without spheres too. Default: none, the process is alone.
+  /// Renderer: that has this prop. While it renders, the prop has bounds that reach far beyond
+  /// everything, so that no process is left out because its part cannot be seen. Default: none.
+  /// OrderedCompositing: pictures are put one over the other, not composited by depth. Default:
+  /// off.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  void SetRenderer(vtkRenderer* renderer);
+  vtkSetMacro(OrderedCompositing, bool);
+  vtkGetMacro(OrderedCompositing, bool);
+  vtkBooleanMacro(OrderedCompositing, bool);
+  ///@}
+
+  double* GetBounds() override;
   vtkTypeBool HasOpaqueGeometry() override { return 0; }
   int RenderVolumetricGeometry(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
@@ -64,8 +83,19 @@ private:
   vtkSphereSilhouettes(const vtkSphereSilhouettes&) = delete;
   void operator=(const vtkSphereSilhouettes&) = delete;
 
-  bool Find(const po::SilhouetteViewport& place);
-  std::string FindAround(vtkRenderer* renderer, const po::SilhouetteViewport& tile, int margin);
+  void BeginPicture();
+  void EndPicture();
+  bool IsShared();
+  bool CanDraw(vtkRenderer* renderer);
+  bool Find(vtkRenderer* renderer, const po::SilhouetteViewport& place);
+  bool FindOwn(const po::SilhouetteViewport& place);
+  bool FindTogether(vtkRenderer* renderer, const po::SilhouetteViewport& place);
+  bool FindAround(
+    vtkRenderer* renderer, const po::SilhouetteViewport& tile, int margin, std::string& error);
+
+  bool OrderedCompositing = false;
+  bool IsRendering = false;
+  double Bounds[6] = { 0, 0, 0, 0, 0, 0 };
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -2,7 +2,7 @@
 /// The tables of Bigler's thesis (2004) for this implementation, as Markdown on standard output:
 /// time to generate textures (its table 3.1), memory of textures (3.2), frame rate of direct light
 /// without textures, with textures, and of textures alone (3.3), frame rate without and with
-/// silhouettes (4.1).
+/// silhouettes (4.1), and what OpenGL takes of a frame.
 ///
 ///   BenchmarkTables [COUNT] [FILE.vtp ...]
 ///
@@ -55,6 +55,22 @@ struct DataSet
   vtkSmartPointer<vtkPolyData> particles;
 };
 
+/// Medians over frames.
+struct Pace
+{
+  double frame = 0;  ///< seconds
+  double traced = 0; ///< seconds of it to trace and to shade; the rest is OpenGL's and VTK's
+
+  [[nodiscard]] double rate() const { return 1 / frame; }
+};
+
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 struct Row
 {
   std::string name;
@@ -65,10 +81,7 @@ struct Row
   int directions = 0;
   vtkIdType textures = 0;
   vtkIdType bytes = 0;
-  double direct = 0;       ///< frames per second
-  double both = 0;         ///< frames per second
-  double texturesOnly = 0; ///< frames per second
-  double silhouettes = 0;  ///< frames per second of both, with lines
+  std::vector<Pace> paces; ///< of the ways in turn
 };
 
 DataSet synthetic(const std::string& family, std::size_t count)
@@ -129,8 +142,8 @@ struct Scene
     renderer->ResetCamera();
   }
 
-  /// Seconds for one frame of the current view, drawn in one way.
-  double draw(const Way& way)
+  /// Times one frame of the current view, drawn in one way.
+  Pace draw(const Way& way)
   {
     // Nothing of the frame before is kept: a hair's breadth is another view.
     renderer->GetActiveCamera()->Azimuth(1e-3);
@@ -140,13 +153,13 @@ struct Scene
     window->Render();
     vtkNew<vtkUnsignedCharArray> pixel;
     window->GetPixelData(0, 0, 0, 0, 0, pixel); // waits for the picture
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return { std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+      mapper->GetTraceSeconds() + mapper->GetShadeSeconds() };
   }
 
-  /// Median frames per second of each way.
-  std::vector<double> frameRates(const std::vector<Way>& ways)
+  [[nodiscard]] std::vector<Pace> paces(const std::vector<Way>& ways)
   {
-    std::vector<std::vector<double>> seconds(ways.size());
+    std::vector<std::vector<double>> frames(ways.size()), traced(ways.size());
     for (const Way& way : ways)
     {
       draw(way); // nothing is built or allocated in the frames that count
@@ -156,16 +169,17 @@ struct Scene
       renderer->GetActiveCamera()->Azimuth(DegreesPerFrame);
       for (std::size_t i = 0; i < ways.size(); ++i)
       {
-        seconds[i].push_back(draw(ways[i]));
+        const Pace pace = draw(ways[i]);
+        frames[i].push_back(pace.frame);
+        traced[i].push_back(pace.traced);
       }
     }
-    std::vector<double> rates;
-    for (std::vector<double>& times : seconds)
+    std::vector<Pace> medians;
+    for (std::size_t i = 0; i < ways.size(); ++i)
     {
-      std::nth_element(times.begin(), times.begin() + Frames / 2, times.end());
-      rates.push_back(1 / times[Frames / 2]);
+      medians.push_back({ median(frames[i]), median(traced[i]) });
     }
-    return rates;
+    return medians;
   }
 
   vtkNew<vtkRayTracedSphereMapper> mapper;
@@ -199,14 +213,10 @@ Row measure(const DataSet& data)
   row.bytes = bake->GetNumberOfTextureBytes();
 
   Scene scene(vtkPolyData::SafeDownCast(bake->GetOutput()));
-  const std::vector<double> rates = scene.frameRates(
+  row.paces = scene.paces(
     { { vtkRayTracedSphereMapper::DIRECT_LIGHT, false }, { vtkRayTracedSphereMapper::BOTH, false },
       { vtkRayTracedSphereMapper::AMBIENT_OCCLUSION, false },
       { vtkRayTracedSphereMapper::BOTH, true } });
-  row.direct = rates[0];
-  row.both = rates[1];
-  row.texturesOnly = rates[2];
-  row.silhouettes = rates[3];
   return row;
 }
 
@@ -238,10 +248,25 @@ void printFrames(const std::vector<Row>& rows)
        "silhouettes | slower by |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   for (const Row& row : rows)
   {
-    std::cout << "| " << row.name << " | " << std::setprecision(1) << row.direct << " | "
-              << row.both << " | " << percentSlower(row.both, row.direct) << " % | "
-              << row.texturesOnly << " | " << row.silhouettes << " | "
-              << percentSlower(row.silhouettes, row.both) << " % |\n";
+    const double direct = row.paces[0].rate(), both = row.paces[1].rate(),
+                 texturesOnly = row.paces[2].rate(), lines = row.paces[3].rate();
+    std::cout << "| " << row.name << " | " << std::setprecision(1) << direct << " | " << both
+              << " | " << percentSlower(both, direct) << " % | " << texturesOnly << " | " << lines
+              << " | " << percentSlower(lines, both) << " % |\n";
+  }
+}
+
+void printShares(const std::vector<Row>& rows)
+{
+  std::cout << "\nMilliseconds of a frame with textures: to trace and shade; what OpenGL and VTK "
+               "add, without and with silhouettes\n\n"
+               "| data | trace and shade | OpenGL | OpenGL, with silhouettes |\n"
+               "| --- | ---: | ---: | ---: |\n";
+  const auto rest = [](const Pace& pace) { return 1e3 * (pace.frame - pace.traced); };
+  for (const Row& row : rows)
+  {
+    std::cout << "| " << row.name << " | " << 1e3 * row.paces[1].traced << " | "
+              << rest(row.paces[1]) << " | " << rest(row.paces[3]) << " |\n";
   }
 }
 
@@ -287,6 +312,7 @@ void printTables(const std::vector<std::string>& arguments)
   std::cout << std::fixed;
   printBakes(rows);
   printFrames(rows);
+  printShares(rows);
 }
 }
 
