@@ -113,7 +113,7 @@ void resize(int width, int height, PlacedLines& lines)
     image.strength.assign(pixels, 0);
     image.front.assign(pixels, 0);
     image.inside.assign(pixels, 0);
-    image.tileHasLines.assign(static_cast<std::size_t>(depthTiles(width)) * depthTiles(height), 0);
+    image.tileRows.assign(static_cast<std::size_t>(depthTiles(width)) * depthTiles(height), 0);
     lines.windowDepth.assign(pixels, NoLine);
     lines.process.assign(pixels, 0);
   }
@@ -123,13 +123,9 @@ void clear(PlacedLines& lines)
 {
   SilhouetteImage& image = lines.image;
   const int columns = depthTiles(image.width);
-  for (std::size_t tile = 0; tile < image.tileHasLines.size(); ++tile)
+  for (std::size_t tile = 0; tile < image.tileRows.size(); ++tile)
   {
-    if (image.tileHasLines[tile] != 0)
-    {
-      clearTile(image, static_cast<int>(tile) % columns, static_cast<int>(tile) / columns);
-      image.tileHasLines[tile] = 0;
-    }
+    clearTile(static_cast<int>(tile) % columns, static_cast<int>(tile) / columns, image);
   }
 }
 }
@@ -141,7 +137,7 @@ void appendLines(const SilhouetteImage& image, int firstRow, int endRow, const S
   std::vector<float> depths;
   for (int tile = firstRow * columns; tile < endRow * columns; ++tile)
   {
-    if (image.tileHasLines[static_cast<std::size_t>(tile)] != 0)
+    if (image.tileRows[static_cast<std::size_t>(tile)] != 0)
     {
       appendTile(image, tile, depth, placed, words, depths);
     }
@@ -159,7 +155,6 @@ void readLines(const Words& words, int width, int height, bool placed, PlacedLin
     const auto tile = static_cast<int>(*at & 0xFFFFFFFFU);
     const auto count = static_cast<std::ptrdiff_t>(*at++ >> 32U);
     const int x = tile % columns * DepthTileSize, y = tile / columns * DepthTileSize;
-    image.tileHasLines[static_cast<std::size_t>(tile)] = 1;
     std::vector<float> depths(static_cast<std::size_t>(count), NoLine);
     if (count > 0 && placed)
     {
@@ -168,9 +163,10 @@ void readLines(const Words& words, int width, int height, bool placed, PlacedLin
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
       const LinePixel pixel = pixelOf(at[i]);
-      const auto inTile = static_cast<int>(pixel.place);
-      const int place = (y + inTile / DepthTileSize) * width + x + inTile % DepthTileSize;
+      const int row = static_cast<int>(pixel.place) / DepthTileSize;
+      const int place = (y + row) * width + x + static_cast<int>(pixel.place) % DepthTileSize;
       const auto to = static_cast<std::size_t>(place);
+      image.tileRows[static_cast<std::size_t>(tile)] |= static_cast<std::uint16_t>(1U << row);
       image.strength[to] = static_cast<float>(pixel.strength) / Steps;
       image.inside[to] = static_cast<float>(pixel.inside) / Steps;
       image.front[to] = place + pixel.frontY * width + pixel.frontX;

@@ -244,7 +244,7 @@ std::vector<int> SharedSilhouettes::searchedTiles(
   SilhouetteImage nothing;
   nothing.width = width_;
   nothing.height = height_;
-  nothing.tileHasLines.assign(ranges.size(), 0);
+  nothing.tileRows.assign(ranges.size(), 0);
   return tilesToSearch(ranges, rule, nothing, true);
 }
 

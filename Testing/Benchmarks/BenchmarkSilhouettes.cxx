@@ -8,6 +8,9 @@
 /// compared with:
 /// - the default display: light from the camera and baked occlusion, no shadows;
 /// - the cheapest, so that the share is the highest: direct light alone.
+/// With antialiased lines also with
+/// - the default display with hard shadows, and
+/// - the default display with four rays a pixel.
 /// Wall-clock times show how lines scale over threads. Without particles the frame is empty.
 ///
 /// Shared/FAMILY/PARTICLES/PROCESSES/SLABS: the particles are divided over processes, played by
@@ -163,16 +166,20 @@ void lines(benchmark::State& state, const std::string& family)
   const SilhouetteRule rule = resolve(parameters, { cloud.scale, 2 * extent });
 
   const Textures textures(cloud.spheres.size());
-  Style direct, display;
+  Style direct, display, shadowed;
   direct.lights = display.lights = { Light() };
   direct.material.mode = ShadingMode::DirectLight;
   display.textures = textures.get();
+  shadowed = display;
+  shadowed.lights.front().direction = Vec3d{ 0.6, -0.64, -0.48 };
+  shadowed.shadows = true;
+  const bool isSmooth = parameters.samples > 1;
   SphereRenderer renderer;
   renderer.setCloud(std::move(cloud));
   SilhouetteImage image;
   SilhouettePixels pixels;
   SilhouetteCounters counters;
-  Spent tracing, shadingDirect, shadingDisplay, search, coloring;
+  Spent tracing, shadingDirect, shadingDisplay, search, coloring, shadows, samples;
   const auto iterate = [&]
   {
     camera.worldToEye[3] += 1e-9 * extent; // a new view each time: nothing is kept
@@ -192,9 +199,14 @@ void lines(benchmark::State& state, const std::string& family)
         const auto* rgba = rule.samples > 1 ? renderer.rgba().data() : nullptr;
         colorSilhouettes(image, {}, { rgba, frame.windowDepth.data() }, pixels);
       });
+    if (isSmooth)
+    {
+      samples.measure([&] { renderer.refine(4); });
+      shadows.measure([&] { renderer.shade(shadowed); });
+    }
   };
   iterate(); // builds the scene and makes room
-  tracing = shadingDirect = shadingDisplay = search = coloring = {};
+  tracing = shadingDirect = shadingDisplay = search = coloring = shadows = samples = {};
   for (auto _ : state)
   {
     iterate();
@@ -208,7 +220,13 @@ void lines(benchmark::State& state, const std::string& family)
   state.counters["lines_cpu"] = search.cpu();
   state.counters["coloring_cpu"] = coloring.cpu();
   state.counters["display_%"] = 100 * search.cpu() / display_cpu;
+  state.counters["colored_%"] = 100 * (search.cpu() + coloring.cpu()) / display_cpu;
   state.counters["cheapest_%"] = 100 * search.cpu() / cheapest_cpu;
+  if (isSmooth)
+  {
+    state.counters["shadowed_%"] = 100 * search.cpu() / (tracing.cpu() + shadows.cpu());
+    state.counters["smooth_%"] = 100 * search.cpu() / (display_cpu + samples.cpu());
+  }
   state.counters["lines_ms"] = search.wall();
   state.counters["covered_%"] = 100.0 * static_cast<double>(covered) / (Width * Height);
   state.counters["skipped_%"] =
@@ -323,6 +341,7 @@ void addBenchmarks()
       benchmark::RegisterBenchmark(("Lines/" + family).c_str(), lines, family)
         ->ArgNames({ "particles", "samples", "threads" })
         ->Args({ 200000, samples, 2 })
+        ->Args({ 955000, samples, 2 })
         ->Iterations(15)
         ->Unit(benchmark::kMillisecond);
     }

@@ -194,9 +194,8 @@ TEST(SharedSilhouettes, ReplaceThoseOfThePictureBefore)
         fresh.find({ part.layer() }, camera, rule, group, -1, false);
         EXPECT_EQ(kept.lines().image.strength, fresh.lines().image.strength);
         kept.find({}, camera, rule, group, -1, false);
-        EXPECT_EQ(std::count(kept.lines().image.tileHasLines.begin(),
-                    kept.lines().image.tileHasLines.end(), 1),
-          0);
+        const auto& rows = kept.lines().image.tileRows;
+        EXPECT_EQ(std::count(rows.begin(), rows.end(), 0), std::ptrdiff_t(rows.size()));
       }
     });
 }
