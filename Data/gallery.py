@@ -52,7 +52,8 @@ ROWS = [
 DEFAULTS = {"ShadingMode": "Direct Light and Ambient Occlusion", "Shadows": 0,
             "SilhouetteVisibility": 0, "SilhouetteMaximumLineWidth": 3, "SilhouetteSamples": 4,
             "SilhouetteSlopeTest": 1,
-            "SilhouetteThreshold": 0, "SilhouetteThresholdUnit": "World units", "SilhouetteLineDensity": 0.5, "SilhouetteGreyByJump": 0,
+            "SilhouetteThreshold": 0, "SilhouetteThresholdUnit": "World units", "SilhouetteLineDensity": 0.5,
+            "SilhouetteGreyByJump": 0,
             "SilhouetteWidthByJump": 0, "SilhouetteDarken": 0, "SilhouetteBackgroundLines": 1}
 
 #: File, array of the colours, azimuth, elevation, zoom.
