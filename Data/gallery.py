@@ -37,6 +37,9 @@ ROWS = [
     ("Direct light with shadows; with ambient occlusion and lines too", {**DIRECT, "Shadows": 1}, {**BOTH, **LINES}),
     ("Lines where the depth jumps by more than the automatic threshold", PLAIN, LINES),
     ("Jagged lines of the thesis; antialiased along the rims of the spheres", THESIS, LINES),
+    ("Lines as in figure 4.4 of the thesis: thresholds of 20 and 0.2 radii",
+     {**THESIS, "SilhouetteThreshold": 20, "SilhouetteThresholdUnit": "Particle radii"},
+     {**THESIS, "SilhouetteThreshold": 0.2, "SilhouetteThresholdUnit": "Particle radii"}),
     ("Every edge of every particle (Line Density 0.85); fewer lines (0.3)",
      {**LINES, "SilhouetteLineDensity": 0.85}, {**LINES, "SilhouetteLineDensity": 0.3}),
     ("Grey follows the jump; width follows it too",
@@ -47,9 +50,11 @@ ROWS = [
      {**LINES, "SilhouetteDarken": 1}, {**LINES, "SilhouetteBackgroundLines": 0}),
 ]
 DEFAULTS = {"ShadingMode": "Direct Light and Ambient Occlusion", "Shadows": 0,
-            "SilhouetteVisibility": 0, "SilhouetteMaximumLineWidth": 3, "SilhouetteSamples": 4, "SilhouetteSlopeTest": 1,
-            "SilhouetteLineDensity": 0.5, "SilhouetteGreyByJump": 0, "SilhouetteWidthByJump": 0,
-            "SilhouetteDarken": 0, "SilhouetteBackgroundLines": 1}
+            "SilhouetteVisibility": 0, "SilhouetteMaximumLineWidth": 3, "SilhouetteSamples": 4,
+            "SilhouetteSlopeTest": 1,
+            "SilhouetteThreshold": 0, "SilhouetteThresholdUnit": "World units", "SilhouetteLineDensity": 0.5,
+            "SilhouetteGreyByJump": 0,
+            "SilhouetteWidthByJump": 0, "SilhouetteDarken": 0, "SilhouetteBackgroundLines": 1}
 
 #: File, array of the colours, azimuth, elevation, zoom.
 SETS = [("bullet_1000.vtp", "damage", 30, -52, 1.5), ("heap.vtp", "speed", 10, 20, 1.4),

@@ -111,10 +111,12 @@ std::vector<std::uint64_t> idsByPlace(const std::vector<std::uint64_t>& idOfPoin
 void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint64_t>& idOfPoint,
   const BakeSettings& settings, const ProcessGroup& group)
 {
-  const SphereCloud& own = input.own;
+  SphereCloud& own = input.own;
   const Neighbourhood neighbourhood(own.spheres, own.toLocalReach(settings.maximumDistance), group);
   SharedSpheres shared = shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
   input.places = std::move(shared.places);
+  own.spheres = {}; // the task has them, in another order
+  own.centers = {};
 
   BakeTask& task = input.task;
   task.cloud.origin = own.origin;

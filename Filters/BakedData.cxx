@@ -4,6 +4,7 @@
 #include "Blocks.h"
 #include "PackedArrays.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkAppendPolyData.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -14,6 +15,9 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
 
 namespace po
 {
@@ -103,6 +107,8 @@ public:
   }
 
   [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+  /// Of each row of the table: its place in the selection, or -1.
+  [[nodiscard]] const std::vector<std::int32_t>& places() const { return newRow_; }
   [[nodiscard]] std::size_t tuples() const { return tuples_; }
 
 private:
@@ -128,17 +134,76 @@ vtkSmartPointer<vtkDataArray> copyTextures(
   return array;
 }
 
-vtkSmartPointer<vtkDataArray> copyTable(
-  const EncodedTable& table, const TextureSelection& selection)
+/// Brings tuples to their places, without a copy of all.
+template <typename Value>
+void permute(std::vector<Value>& values, std::size_t width, std::vector<std::int32_t> places)
+{
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    while (places[i] != static_cast<std::int32_t>(i))
+    {
+      const auto target = static_cast<std::size_t>(places[i]);
+      std::swap_ranges(
+        values.data() + i * width, values.data() + (i + 1) * width, values.data() + target * width);
+      std::swap(places[i], places[target]);
+    }
+  }
+}
+
+/// An array that owns the memory of a vector: VTK gives it back when the last array that shares it
+/// is gone.
+template <typename Array, typename Value>
+vtkSmartPointer<vtkDataArray> adopt(std::vector<Value>& values, std::size_t width)
+{
+  // Never destroyed: arrays may be gone later than what is static.
+  static std::mutex& mutex = *new std::mutex;
+  static auto& adopted = *new std::unordered_map<void*, std::vector<Value>>;
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(TextureTableArray);
+  array->SetNumberOfComponents(static_cast<int>(width));
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::vector<Value>& kept = adopted[values.data()];
+  kept = std::move(values);
+  array->SetArray(kept.data(), static_cast<vtkIdType>(kept.size()), 0,
+    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
+  array->SetArrayFreeFunction(
+    [](void* memory)
+    {
+      const std::lock_guard<std::mutex> whileErased(mutex);
+      adopted.erase(memory);
+    });
+  return array;
+}
+
+template <typename Array, typename Value>
+vtkSmartPointer<vtkDataArray> takeTextures(
+  std::vector<Value>& values, std::size_t width, const TextureSelection& selection)
+{
+  if (values.empty() || selection.tuples() * width != values.size())
+  {
+    return copyTextures<Array>(values, width, selection);
+  }
+  permute(values, width, selection.places());
+  return adopt<Array>(values, width);
+}
+
+/// @param isLast no other block needs the table
+vtkSmartPointer<vtkDataArray> makeTable(
+  EncodedTable& table, const TextureSelection& selection, bool isLast)
 {
   const std::size_t width = table.valuesPerTuple();
-  return table.encoding == Encoding::UInt8Gamma2
-    ? copyTextures<vtkUnsignedCharArray>(table.bytes, width, selection)
-    : copyTextures<vtkFloatArray>(table.floats, width, selection);
+  const bool take = isLast && !table.isPacked();
+  if (table.encoding == Encoding::UInt8Gamma2)
+  {
+    return take ? takeTextures<vtkUnsignedCharArray>(table.bytes, width, selection)
+                : copyTextures<vtkUnsignedCharArray>(table.bytes, width, selection);
+  }
+  return take ? takeTextures<vtkFloatArray>(table.floats, width, selection)
+              : copyTextures<vtkFloatArray>(table.floats, width, selection);
 }
 
 void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offset,
-  const BakeResult& result, const OcclusionParameters& parameters)
+  EncodedTable& table, bool isLast, const OcclusionParameters& parameters)
 {
   const vtkIdType points = block->GetNumberOfPoints();
   vtkNew<vtkFloatArray> mean;
@@ -146,7 +211,7 @@ void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offs
   mean->SetNumberOfTuples(points);
   std::copy_n(all.mean.data() + offset, points, mean->GetPointer(0));
 
-  TextureSelection selection(result.table);
+  TextureSelection selection(table);
   vtkNew<vtkIntArray> index;
   index->SetName(TextureIndexArray);
   index->SetNumberOfTuples(points);
@@ -155,9 +220,9 @@ void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offs
 
   block->GetPointData()->AddArray(mean);
   block->GetPointData()->AddArray(index);
-  block->GetFieldData()->AddArray(copyTable(result.table, selection));
+  block->GetFieldData()->AddArray(makeTable(table, selection, isLast));
   block->GetFieldData()->RemoveArray(TextureBasisArray); // of an earlier bake
-  if (const auto basis = basisArrayOf(result.table.packed))
+  if (const auto basis = basisArrayOf(table.packed))
   {
     block->GetFieldData()->AddArray(basis);
   }
@@ -196,7 +261,7 @@ std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
 }
 
 void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& cloud,
-  const BakeResult& result, const OcclusionParameters& parameters)
+  BakeResult&& result, const OcclusionParameters& parameters)
 {
   std::size_t points = 0;
   for (vtkPointSet* block : blocks)
@@ -209,7 +274,7 @@ void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& clou
   std::size_t offset = 0;
   for (vtkPointSet* block : blocks)
   {
-    attachToBlock(block, all, offset, result, described);
+    attachToBlock(block, all, offset, result.table, block == blocks.back(), described);
     offset += static_cast<std::size_t>(block->GetNumberOfPoints());
   }
 }

@@ -31,9 +31,9 @@ namespace po
 
 /// Adds the arrays of the data contract to each block. A block gets the rows of the table that its
 /// particles use; particles that were left out get row -1 and visibility 0.
-/// @param result in the order of the cloud's spheres
+/// @param result in the order of the cloud's spheres; a single block takes over its memory
 void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& cloud,
-  const BakeResult& result, const OcclusionParameters& parameters);
+  BakeResult&& result, const OcclusionParameters& parameters);
 }
 
 #endif

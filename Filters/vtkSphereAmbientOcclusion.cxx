@@ -17,6 +17,7 @@
 
 #include <chrono>
 #include <functional>
+#include <utility>
 
 vtkStandardNewMacro(vtkSphereAmbientOcclusion);
 
@@ -81,7 +82,8 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   }
   group.agree(); // nobody was aborted: from here on it is all or nothing
   announce(self, 1, "Storing textures");
-  po::attachBake(blocks, input.own, result, po::describeBake(*self, settings, this->Report));
+  po::attachBake(
+    blocks, input.own, std::move(result), po::describeBake(*self, settings, this->Report));
   group.agree();
 }
 

@@ -11,184 +11,192 @@
 #include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
 
+#include "RimLanes-inl.h" // after foreach_target.h
+
 HWY_BEFORE_NAMESPACE();
 namespace po::HWY_NAMESPACE
 {
-namespace hn = hwy::HWY_NAMESPACE;
-
-// The pixels of one rim in a tile are few: longer vectors would be mostly empty.
-using Tag = hn::CappedTag<float, 8>;
-using IntegerTag = hn::RebindToSigned<Tag>;
-using Floats = hn::Vec<Tag>;
-using Integers = hn::Vec<IntegerTag>;
-using Lanes = hn::Mask<Tag>;
-
 /// A rim farther than this from an edge, in pixels, is not what the edge is the edge of.
 constexpr float FarFromEdge = 1.5F;
 
-inline Floats number(float value)
-{
-  return hn::Set(Tag(), value);
-}
+/// A pixel whose centre lies about so far within a rim, rounded to whole pixels, shows the sphere.
+constexpr float WithinRim = 0.75F;
 
-/// A quadratic at some places, and half its gradient.
-struct Evaluated
+/// Some pixels of a tile, one a lane.
+struct TilePixels
 {
-  Floats value, halfX, halfY;
-
-  Evaluated(const Quadratic& f, Floats x, Floats y)
-  {
-    const Floats mixed = number(0.5F * f.xy), fx = number(0.5F * f.x), fy = number(0.5F * f.y);
-    const Floats bentX = hn::Add(hn::Mul(x, number(f.xx)), hn::Mul(y, mixed));
-    const Floats bentY = hn::Add(hn::Mul(y, number(f.yy)), hn::Mul(x, mixed));
-    halfX = hn::Add(fx, bentX);
-    halfY = hn::Add(fy, bentY);
-    const Floats rise = hn::Add(hn::Mul(x, hn::Add(fx, halfX)), hn::Mul(y, hn::Add(fy, halfY)));
-    value = hn::Add(number(f.c), rise);
-  }
+  Integers i, j;
+  Integers at; ///< in blocks that have more around
+  Lanes isEdge;
 };
 
-/// Where pixels lie beside a rim.
-struct Place
-{
-  Floats distance;     ///< beyond the rim, in pixels
-  Floats wide, narrow; ///< the larger and the smaller component of the unit normal, without sign
-  Floats perWide, perArea;
-};
-
-/// The distance from the rim is (h - r) / |grad h|, with lengths in radii.
-inline Place placeOf(const Quadratic& squaredMoment, const RayPatch& patch, Floats x, Floats y)
-{
-  const Floats tiny = number(1e-30F), one = number(1);
-  const Evaluated moment(squaredMoment, x, y), length(patch.squaredLength, x, y);
-  const Floats square = hn::Div(hn::Max(moment.value, tiny), length.value);
-  const Floats h = hn::Sqrt(square);
-  // grad h times h |d|^2
-  const Floats gx = hn::Sub(moment.halfX, hn::Mul(square, length.halfX));
-  const Floats gy = hn::Sub(moment.halfY, hn::Mul(square, length.halfY));
-  const Floats gradient = hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
-  const Floats perLength = hn::Div(one, hn::Sqrt(hn::Max(gradient, tiny)));
-  const Floats beyond = hn::Mul(hn::Sub(h, one), hn::Mul(h, length.value));
-  const Floats nx = hn::Mul(hn::Abs(gx), perLength), ny = hn::Mul(hn::Abs(gy), perLength);
-  const Floats wide = hn::Max(nx, ny), narrow = hn::Min(nx, ny);
-  const Floats area = hn::Max(hn::Mul(number(2), hn::Mul(wide, narrow)), number(1e-9F));
-  return { hn::Mul(beyond, perLength), wide, narrow, hn::Div(one, wide), hn::Div(one, area) };
-}
-
-/// Share of a pixel that lies beyond a straight line at a distance from its centre: the
-/// distribution function of the trapezoid that a square shows in the direction of the normal.
-inline Floats shareBeyond(Floats distance, const Place& place)
-{
-  const Floats half = number(0.5F), one = number(1), zero = number(0);
-  const Floats x = hn::Abs(distance);
-  const Floats flat = hn::Mul(half, hn::Sub(place.wide, place.narrow));
-  const Floats end = hn::Mul(half, hn::Add(place.wide, place.narrow));
-  const Floats left = hn::Max(hn::Sub(end, x), zero);
-  const Floats bent = hn::Sub(one, hn::Mul(hn::Mul(left, left), place.perArea));
-  const Floats straight = hn::Add(half, hn::Mul(x, place.perWide));
-  const Floats share = hn::IfThenElse(hn::Le(x, flat), straight, bent);
-  return hn::IfThenElse(hn::Lt(distance, zero), hn::Sub(one, share), share);
-}
-
-/// JumpRamp::at().
-inline Floats rampAt(const JumpRamp& ramp, Floats jump)
-{
-  const Floats from = number(ramp.from), to = number(ramp.to);
-  const Floats rise = hn::Div(hn::Sub(jump, from), hn::Sub(to, from));
-  return hn::IfThenElse(hn::Ge(jump, to), number(1), hn::IfThenElseZero(hn::Gt(jump, from), rise));
-}
-
-/// What the edges of one rim around each of some pixels say: the nearest front counts.
-struct EdgesAround
-{
-  Lanes any = hn::FirstN(Tag(), 0);
-  Floats front = number(std::numeric_limits<float>::infinity());
-  Floats jump = number(0); ///< the largest
-  Integers frontPixel = hn::Zero(IntegerTag());
-
-  EdgesAround(const RimTile& tile, int index, std::int32_t rim, int reach)
-  {
-    const Tag d;
-    const IntegerTag integers;
-    for (int row = -reach; row <= reach; ++row)
-    {
-      for (int at = index + row * RimTile::EdgePitch - reach, end = at + 2 * reach; at <= end; ++at)
-      {
-        const auto isRim =
-          hn::Eq(hn::LoadU(integers, tile.rims.data() + at), hn::Set(integers, rim));
-        const Lanes is = hn::RebindMask(d, isRim);
-        const Floats itsFront = hn::LoadU(d, tile.fronts.data() + at);
-        const Lanes isNearer = hn::And(is, hn::Lt(itsFront, front));
-        any = hn::Or(any, is);
-        front = hn::IfThenElse(isNearer, itsFront, front);
-        jump = hn::Max(jump, hn::IfThenElseZero(is, hn::LoadU(d, tile.jumps.data() + at)));
-        frontPixel = hn::IfThenElse(hn::RebindMask(integers, isNearer),
-          hn::LoadU(integers, tile.frontPixels.data() + at), frontPixel);
-      }
-    }
-  }
-};
-
-/// Paints lines along one rim.
+/// Paints the lines of one tile.
 class Painter
 {
 public:
-  Painter(const RayPatch& patch, const Rim& rim, const SilhouetteRule& rule, RimTile& tile)
-    : patch_(patch)
-    , rim_(rim)
+  Painter(const RimTile& tile, const SilhouetteRule& rule, int reach, RimWork& work)
+    : tile_(tile)
     , rule_(rule)
-    , tile_(tile)
-    , reach_(reachOfLines(rule))
+    , reach_(reach)
+    , work_(work)
     , farthest_(rule.backgroundLines ? std::numeric_limits<float>::infinity()
                                      : std::numeric_limits<float>::max())
+    , followsJump_(rule.greyByJump || rule.maximumWidth > rule.width)
   {
   }
 
-  /// Pixels (i, j) and those to the right of it; false if there is no line.
-  bool paint(int i, int j)
+  /// Lists all pixels first: the loops over them are long, and nothing in them depends on what is
+  /// not known yet.
+  void paint(const std::vector<Rim>& rims, RimLines& painted)
   {
-    const Tag d;
-    const int edge = RimTile::edgeIndexOf(i, j);
-    const EdgesAround itself(tile_, edge, rim_.number, 0);
-    EdgesAround around(tile_, edge, rim_.number, reach_);
-    const Lanes isEdge = itself.any;
-    const Floats jump = hn::IfThenElse(isEdge, itself.jump, jumpBeside(around, i, j));
-    const Lanes isBehind = hn::And(
-      hn::Gt(jump, number(static_cast<float>(rule_.jump))), hn::Le(jump, number(farthest_)));
-    const Lanes isLine = hn::Or(isEdge, hn::And(around.any, isBehind));
-    if (hn::AllFalse(d, isLine))
+    for (const Rim& rim : rims)
     {
-      return false;
+      listPixels(rim);
     }
-    around.frontPixel =
-      hn::IfThenElse(hn::RebindMask(IntegerTag(), isEdge), itself.frontPixel, around.frontPixel);
-    const Floats x = hn::Add(hn::Iota(d, 0), number(static_cast<float>(i - RimTile::Side / 2)));
-    const Place place =
-      placeOf(rim_.squaredMoment, patch_, x, number(static_cast<float>(j - RimTile::Side / 2)));
-    return merge(place, jump, isEdge, isLine, around.frontPixel, RimTile::indexOf(i, j));
+    work_.reserveCovered(listed_ + MostLanes);
+    for (std::size_t first = 0; first < listed_; first += hn::Lanes(Tag()))
+    {
+      cover(first, *work_.rims[first / hn::Lanes(Tag())]);
+    }
+    merge(painted);
   }
 
 private:
-  /// From the sphere to what lies behind it at a pixel beside the edge. Pixels of the sphere itself
-  /// are covered in part, by what lies behind it at the edge.
-  [[nodiscard]] Floats jumpBeside(const EdgesAround& around, int i, int j) const
+  static constexpr std::size_t MostLanes = 16;
+  /// A place behind the last pixel.
+  static constexpr std::size_t Unused = TileLines::indexOf(0, DepthTileSize) - 1;
+  // In lists of pixels, which are i + 32 j.
+  static constexpr std::int32_t EdgeBit = 1 << 10, NoPixel = 1 << 11;
+
+  /// Lists the pixels that a line can cover, and fills the last group up.
+  void listPixels(const Rim& rim)
   {
-    const IntegerTag integers;
-    const int at = j * tile_.pitch + i;
-    const auto* shown = reinterpret_cast<const std::int32_t*>(tile_.shown + at);
-    const Lanes isFront = hn::RebindMask(Tag(),
-      hn::Eq(hn::LoadU(integers, shown), hn::Set(integers, static_cast<std::int32_t>(rim_.shown))));
-    const Floats depth = hn::LoadU(Tag(), tile_.depth + at);
-    return hn::IfThenElse(isFront, around.jump, hn::Sub(depth, around.front));
+    const std::size_t lanes = hn::Lanes(Tag()), first = listed_;
+    work_.reserveListed(first + DepthTileSize * DepthTileSize + MostLanes);
+    std::uint32_t rows = spread(rim.rows) >> Rim::Border & ((1U << tile_.rows) - 1);
+    for (; rows != 0; rows &= rows - 1)
+    {
+      const auto j = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rows));
+      std::uint32_t edges = 0;
+      for (int row = j + Rim::Border - reach_; row <= j + Rim::Border + reach_; ++row)
+      {
+        edges |= rim.edges[static_cast<std::size_t>(row)];
+      }
+      const std::uint32_t inside = (1U << tile_.columns) - 1;
+      listRow(j, spread(edges) >> Rim::Border & inside,
+        rim.edges[static_cast<std::size_t>(j + Rim::Border)] >> Rim::Border);
+    }
+    if (listed_ > first)
+    {
+      const std::int32_t filling = work_.pixels[listed_ - 1] | NoPixel;
+      hn::StoreU(number(filling), IntegerTag(), work_.pixels.data() + listed_);
+      listed_ += (first - listed_) % lanes;
+    }
+    std::fill(work_.rims.begin() + first / lanes, work_.rims.begin() + listed_ / lanes, &rim);
   }
 
-  bool merge(
-    const Place& place, Floats jump, Lanes isEdge, Lanes isLine, Integers frontPixel, int at)
+  /// Sets the bits up to the reach from each bit.
+  [[nodiscard]] std::uint32_t spread(std::uint32_t bits) const
   {
-    const Tag d;
+    for (int step = 0; step < reach_; ++step)
+    {
+      bits |= bits << 1 | bits >> 1;
+    }
+    return bits;
+  }
+
+  void listRow(int j, std::uint32_t pixels, std::uint32_t edges)
+  {
     const IntegerTag integers;
-    Floats width = number(static_cast<float>(rule_.width)), weight = number(1);
-    if (rule_.greyByJump || rule_.maximumWidth > rule_.width)
+    for (int i = 0; i < DepthTileSize; i += static_cast<int>(hn::Lanes(integers)))
+    {
+      const auto isEdge = maskOf(edges >> i), isListed = maskOf(pixels >> i);
+      const Integers pixel = countFrom(32 * j + i);
+      const Integers marked = hn::Add(pixel, hn::IfThenElseZero(isEdge, number(EdgeBit)));
+      hn::StoreU(hn::Compress(marked, isListed), integers, work_.pixels.data() + listed_);
+      listed_ += hn::CountTrue(integers, isListed);
+    }
+  }
+
+  static hn::Mask<IntegerTag> maskOf(std::uint32_t bits)
+  {
+    const std::uint8_t bytes[8] = { static_cast<std::uint8_t>(bits),
+      static_cast<std::uint8_t>(bits >> 8) };
+    return hn::LoadMaskBits(IntegerTag(), bytes);
+  }
+
+  /// Notes what the line along a rim covers of some pixels.
+  void cover(std::size_t first, const Rim& rim)
+  {
+    const Integers listed = hn::LoadU(IntegerTag(), work_.pixels.data() + first);
+    const auto has = [listed](std::int32_t bit)
+    { return hn::RebindMask(Tag(), hn::Ne(hn::And(listed, number(bit)), number(0))); };
+    const Integers i = hn::And(listed, number(31));
+    const Integers j = hn::And(hn::ShiftRight<5>(listed), number(31));
+    const Integers row = hn::Add(hn::Mul(j, number(tile_.pitch)), number(tile_.first));
+    const TilePixels pixels{ i, j, hn::Add(row, i), has(EdgeBit) };
+    const auto fromMiddle = [](Integers place)
+    { return hn::ConvertTo(Tag(), hn::Sub(place, number(DepthTileSize / 2))); };
+    const Place place = placeOf(rim.squaredMoment, *rim.patch, fromMiddle(i), fromMiddle(j));
+
+    const Integers sphere = number(static_cast<std::int32_t>(rim.shown));
+    const Lanes isHere = hn::RebindMask(Tag(), hn::Eq(gather(tile_.shown, pixels.at), sphere));
+    const Floats jump = jumpOf(pixels, isHere, rim);
+    const Lanes isBehind = hn::And(
+      hn::Gt(jump, number(static_cast<float>(rule_.jump))), hn::Le(jump, number(farthest_)));
+    // Pixels of the sphere are beside an edge.
+    const Lanes isBeside = rule_.slopeTest ? hn::Or(isHere, isBehind) : isBehind;
+    const Lanes isLine = hn::AndNot(has(NoPixel), hn::Or(pixels.isEdge, isBeside));
+    const Share share = shareOf(place, jump, pixels.isEdge);
+    const Lanes isCovered = hn::And(isLine, hn::Gt(share.strength, number(0.0F)));
+    note(isCovered, hn::Add(hn::Mul(j, number(TileLines::Pitch)), i), share,
+      stepsToFront(place, isHere), rim.shown);
+  }
+
+  /// From the rim to what lies behind it. Pixels of the sphere are covered in part, by what lies
+  /// behind at the edges around: the farthest counts. It is not asked for where jumps do not
+  /// matter.
+  [[nodiscard]] Floats jumpOf(const TilePixels& pixels, Lanes isHere, const Rim& rim) const
+  {
+    Floats behind = hn::GatherIndex(Tag(), tile_.depth, pixels.at);
+    if ((followsJump_ || !rule_.slopeTest) && !hn::AllFalse(Tag(), isHere))
+    {
+      behind = hn::IfThenElse(isHere, farthestAround(pixels.at, rim), behind);
+    }
+    return hn::Sub(behind, number(rim.depth));
+  }
+
+  [[nodiscard]] Floats farthestAround(Integers pixels, const Rim& rim) const
+  {
+    const Integers sphere = number(static_cast<std::int32_t>(rim.shown));
+    Floats farthest = number(std::numeric_limits<float>::lowest());
+    for (int row = -reach_; row <= reach_; ++row)
+    {
+      for (int column = -reach_; column <= reach_; ++column)
+      {
+        const Integers at = hn::Add(pixels, number(row * tile_.pitch + column));
+        const auto isRim = hn::Eq(gather(tile_.fronts, at), sphere);
+        if (!hn::AllFalse(IntegerTag(), isRim))
+        {
+          const Floats depth = hn::GatherIndex(Tag(), tile_.depth, at);
+          farthest =
+            hn::IfThenElse(hn::RebindMask(Tag(), isRim), hn::Max(farthest, depth), farthest);
+        }
+      }
+    }
+    return farthest;
+  }
+
+  /// What the line covers of pixels, and what lies within the rim.
+  struct Share
+  {
+    Floats strength, inside;
+  };
+
+  [[nodiscard]] Share shareOf(const Place& place, Floats jump, Lanes isEdge) const
+  {
+    Floats width = number(static_cast<float>(rule_.width)), weight = number(1.0F);
+    if (followsJump_)
     {
       const Floats ramp = rampAt(rule_.ramp, jump);
       const auto growth = static_cast<float>(rule_.maximumWidth - rule_.width);
@@ -199,44 +207,66 @@ private:
     const Floats outer = shareBeyond(hn::Sub(place.distance, width), place);
     const Lanes isFar = hn::Gt(hn::Abs(place.distance), number(FarFromEdge));
     const Floats covered =
-      hn::IfThenElse(hn::And(isEdge, isFar), number(1), hn::Sub(beyond, outer));
+      hn::IfThenElse(hn::And(isEdge, isFar), number(1.0F), hn::Sub(beyond, outer));
     const Floats inside =
-      hn::IfThenElseZero(hn::Ge(place.distance, number(0)), hn::Sub(number(1), beyond));
-
-    const Floats strength = hn::Mul(covered, weight);
-    const Floats before = hn::LoadU(d, tile_.strength.data() + at);
-    const Lanes isStronger = hn::And(isLine, hn::Gt(strength, before));
-    const auto store = [&](auto tag, auto lanes, auto value, auto* to)
-    { hn::StoreU(hn::IfThenElse(lanes, value, hn::LoadU(tag, to)), tag, to); };
-    store(d, isStronger, strength, tile_.strength.data() + at);
-    store(d, isStronger, hn::Mul(inside, weight), tile_.inside.data() + at);
-    store(integers, hn::RebindMask(integers, isStronger), frontPixel, tile_.front.data() + at);
-    return !hn::AllFalse(d, isStronger);
+      hn::IfThenElseZero(hn::Ge(place.distance, number(0.0F)), hn::Sub(number(1.0F), beyond));
+    return { hn::Mul(covered, weight), hn::Mul(inside, weight) };
   }
 
-  const RayPatch& patch_;
-  const Rim& rim_;
-  const SilhouetteRule& rule_;
-  RimTile& tile_;
-  int reach_;
-  float farthest_; ///< largest jump that a line beside an edge is drawn for
-};
-
-bool paintLine(const RayPatch& patch, const Rim& rim, const SilhouetteRule& rule, RimTile& tile)
-{
-  Painter painter(patch, rim, rule, tile);
-  const auto lanes = static_cast<std::uint32_t>(hn::Lanes(Tag()));
-  bool any = false;
-  for (int j = 0; j < RimTile::Side; ++j)
+  /// The way from a pixel to one of the sphere: none, or straight to the rim and a little further.
+  [[nodiscard]] Integers stepsToFront(const Place& place, Lanes isHere) const
   {
-    for (std::uint32_t left = rim.pixels[static_cast<std::size_t>(j)]; left != 0;)
+    const Floats way = hn::Min(hn::Max(hn::Add(place.distance, number(WithinRim)), number(0.0F)),
+      number(static_cast<float>(reach_ + 1)));
+    const Floats back = hn::IfThenZeroElse(isHere, hn::Neg(way));
+    const Integers i = hn::NearestInt(hn::Mul(place.nx, back));
+    const Integers j = hn::NearestInt(hn::Mul(place.ny, back));
+    const Integers row = hn::ShiftLeft<RimLines::RowBits>(j);
+    return hn::Add(hn::Add(row, i), number(RimLines::NoStep));
+  }
+
+  void note(Lanes which, Integers at, const Share& share, Integers steps, std::uint32_t shown)
+  {
+    const Tag d;
+    const IntegerTag integers;
+    const auto whichIntegers = hn::RebindMask(integers, which);
+    hn::StoreU(hn::Compress(at, whichIntegers), integers, work_.at.data() + covered_);
+    hn::StoreU(hn::Compress(steps, whichIntegers), integers, work_.steps.data() + covered_);
+    hn::StoreU(hn::Compress(share.strength, which), d, work_.strength.data() + covered_);
+    hn::StoreU(hn::Compress(share.inside, which), d, work_.inside.data() + covered_);
+    hn::StoreU(number(static_cast<std::int32_t>(shown)), integers,
+      reinterpret_cast<std::int32_t*>(work_.shown.data()) + covered_);
+    covered_ += hn::CountTrue(d, which);
+  }
+
+  /// Keeps what is stronger than what is there. Without branches, which nothing could predict.
+  void merge(RimLines& painted) const
+  {
+    for (std::size_t k = 0; k < covered_; ++k)
     {
-      const auto i = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
-      any |= painter.paint(static_cast<int>(i), j);
-      left = i + lanes < 32 ? left & (~0U << (i + lanes)) : 0;
+      const auto at = static_cast<std::size_t>(work_.at[k]);
+      const float before = painted.lines.strength[at], now = work_.strength[k];
+      const std::size_t to = now > before ? at : Unused;
+      painted.lines.strength[at] = std::max(now, before);
+      painted.lines.inside[to] = work_.inside[k];
+      painted.steps[to] = work_.steps[k];
+      painted.shown[to] = work_.shown[k];
     }
   }
-  return any;
+
+  const RimTile& tile_;
+  const SilhouetteRule& rule_;
+  int reach_;
+  RimWork& work_;
+  float farthest_; ///< largest jump that a line beside an edge is drawn for
+  bool followsJump_;
+  std::size_t listed_ = 0, covered_ = 0;
+};
+
+void paintLines(const RimTile& tile, const std::vector<Rim>& rims, const SilhouetteRule& rule,
+  int reach, RimWork& work, RimLines& painted)
+{
+  Painter(tile, rule, reach, work).paint(rims, painted);
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -244,46 +274,38 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace po
 {
-HWY_EXPORT(paintLine);
+HWY_EXPORT(paintLines);
 
-namespace
+void RimWork::reserveListed(std::size_t count)
 {
-/// |a + x b + y c|^2 times a factor.
-Quadratic squareOf(const WindowFunction<Vec3d>& f, double factor)
-{
-  const auto product = [factor](double scale, const Vec3d& a, const Vec3d& b)
-  { return static_cast<float>(factor * scale * dot(a, b)); };
-  return { product(1, f.base, f.base), product(2, f.base, f.dx), product(2, f.base, f.dy),
-    product(1, f.dx, f.dx), product(2, f.dx, f.dy), product(1, f.dy, f.dy) };
-}
+  if (pixels.size() < count)
+  {
+    pixels.resize(2 * count);
+    rims.resize(2 * count);
+  }
 }
 
-RayPatch makeRayPatch(const RayPencil& rays)
+void RimWork::reserveCovered(std::size_t count)
 {
-  const double scale = 1 / length(rays.localDirection.base);
-  return { rays, scale, squareOf(rays.localDirection, scale * scale) };
+  if (at.size() < count)
+  {
+    at.resize(count);
+    steps.resize(count);
+    strength.resize(count);
+    inside.resize(count);
+    shown.resize(count);
+  }
 }
 
-Quadratic squaredMoment(const RayPatch& patch, const Sphere& sphere)
+RimBrush::RimBrush(const SilhouetteRule& rule)
+  : rule_(rule)
+  , reach_(static_cast<int>(std::ceil(rule.maximumWidth)))
 {
-  const WindowFunction<Vec3d>& d = patch.rays.localDirection;
-  const WindowFunction<Vec3d>& origin = patch.rays.localOrigin;
-  const Vec3d toCenter = sphere.center().as<double>() - origin.base;
-  const WindowFunction<Vec3d> moment{ cross(toCenter, d.base),
-    cross(toCenter, d.dx) - cross(origin.dx, d.base),
-    cross(toCenter, d.dy) - cross(origin.dy, d.base) };
-  const double scale = patch.scale / sphere.radius;
-  return squareOf(moment, scale * scale);
 }
 
-bool paintRim(const RayPatch& patch, const Rim& rim, const SilhouetteRule& rule, RimTile& tile)
+void RimBrush::paint(const RimTile& tile, const std::vector<Rim>& rims, RimLines& painted)
 {
-  return HWY_DYNAMIC_DISPATCH(paintLine)(patch, rim, rule, tile);
-}
-
-int reachOfLines(const SilhouetteRule& rule)
-{
-  return static_cast<int>(std::ceil(rule.maximumWidth));
+  HWY_DYNAMIC_DISPATCH(paintLines)(tile, rims, rule_, reach_, work_, painted);
 }
 }
 #endif

@@ -2,91 +2,107 @@
 #ifndef po_RimShares_h
 #define po_RimShares_h
 
-#include "Camera.h"
-#include "DepthSource.h"
-#include "SilhouetteRule.h"
-#include "Sphere.h"
+#include "RimGeometry.h"
+#include "SilhouetteTiles.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 /// How much of a pixel lies within a line along the rim of a sphere.
 namespace po
 {
-/// c + x X + y Y + xx X^2 + xy X Y + yy Y^2.
-struct Quadratic
-{
-  float c, x, y, xx, xy, yy;
-};
-
-/// The rays of a tile, as functions of the offset in pixels from the middle of the tile.
-struct RayPatch
-{
-  RayPencil rays;
-  double scale;            ///< 1 / length of the direction in the middle
-  Quadratic squaredLength; ///< of a direction, 1 in the middle
-};
-
-[[nodiscard]] RayPatch makeRayPatch(const RayPencil& rays);
-
-/// |m|^2 over the squared radius of a sphere. The ray at (x, y) from the middle of a patch has the
-/// distance h = |m| / |d| from the sphere's centre, with m = (centre - origin) x d linear in (x,
-/// y): in perspective all rays have one origin, in parallel projection one direction.
-[[nodiscard]] Quadratic squaredMoment(const RayPatch& patch, const Sphere& sphere);
-
-/// The pixels of a tile, the edges in and around it, and the lines that are painted. Rows are
-/// longer than the tile, for whole vectors.
+/// The pixels of a tile and what is around it, row by row of the picture.
 struct RimTile
 {
-  static constexpr int Side = DepthTileSize;
-  static constexpr int Slack = 8;
-  static constexpr int Pitch = Side + Slack;
-  static constexpr int Border = static_cast<int>(WidestLine);
-  static constexpr int EdgePitch = Side + 2 * Border + Slack;
+  int x, y;          ///< first pixel of the tile in the picture
+  int columns, rows; ///< as far as it lies in the picture
+  int width, height; ///< of the picture
 
-  template <typename T>
-  using Pixels = std::array<T, Side * Pitch>;
-  template <typename T>
-  using Edges = std::array<T, (Side + 2 * Border) * EdgePitch>;
-
-  [[nodiscard]] static constexpr int indexOf(int i, int j) { return j * Pitch + i; }
-
-  /// Of an edge that may lie up to Border pixels beside the tile.
-  [[nodiscard]] static constexpr int edgeIndexOf(int i, int j)
-  {
-    return (j + Border) * EdgePitch + i + Border;
-  }
-
-  // The first pixel in a block that has more around.
+  // Blocks of pixels.
   const float* depth;
-  const std::uint32_t* shown; ///< number of the sphere that a pixel shows
-  int pitch;                  ///< from row to row
-
-  Edges<std::int32_t> rims; ///< number of the rim that an edge lies behind; -1: there is no edge
-  Edges<float> fronts;      ///< depth in front of the edge
-  Edges<float> jumps;       ///< from there to what is behind
-  Edges<std::int32_t> frontPixels; ///< of the picture
-
-  Pixels<float> strength, inside; ///< as in SilhouetteImage
-  Pixels<std::int32_t> front;
+  const std::uint32_t* shown;  ///< number of the sphere that a pixel shows
+  const std::uint32_t* fronts; ///< number of the sphere that an edge lies behind, or None
+  const std::int32_t* toFront; ///< where the pixel in front of an edge is, as in EdgeGroup
+  int first;                   ///< index of the first pixel of the tile
+  int pitch;                   ///< from row to row
 };
 
 /// The rim of one sphere in a tile.
 struct Rim
 {
-  Quadratic squaredMoment;
-  std::int32_t number;
-  std::uint32_t shown; ///< number of the sphere
-  /// Bits of the pixels in each row of the tile that have an edge of the rim no farther than the
-  /// reach of a line.
-  std::array<std::uint32_t, RimTile::Side> pixels;
+  /// Pixels around a tile that edges are looked for in, at most.
+  static constexpr int Border = static_cast<int>(WidestLine);
+  static constexpr int Side = DepthTileSize + 2 * Border;
+
+  /// Without edges, and not placed.
+  /// @param place where it is in a table
+  Rim(std::uint32_t sphere, std::size_t place)
+    : shown(sphere)
+    , slot(place)
+  {
+    edges.fill(0);
+  }
+
+  std::uint32_t shown;     ///< number of the sphere
+  std::size_t slot;        ///< see above
+  std::uint32_t rows = 0;  ///< that have edges, one bit each
+  const RayPatch* patch;   ///< rays of the tile
+  Quadratic squaredMoment; ///< of these rays
+  float depth;             ///< of the rim, as in RimTile::depth
+  /// Edges that lie behind the rim, from Border rows below the tile and Border columns left of it
+  /// on: one bit each.
+  std::array<std::uint32_t, Side> edges;
 };
 
-/// Paints the line along a rim where it is stronger than what is there; false if it is nowhere.
-bool paintRim(const RayPatch& patch, const Rim& rim, const SilhouetteRule& rule, RimTile& tile);
+/// The strongest line in each pixel of a tile, and where its front is.
+struct RimLines
+{
+  TileLines lines;
+  TileLines::Pixels<std::uint32_t> shown; ///< number of the sphere in front
+  TileLines::Pixels<std::int32_t> steps;  ///< to a pixel that may show it
 
-/// Pixels beyond an edge that its line can cover.
-[[nodiscard]] int reachOfLines(const SilhouetteRule& rule);
+  // Steps are (j + Most) * Row + i + Most.
+  static constexpr int RowBits = 8, Row = 1 << RowBits, Most = 16, NoStep = Most * Row + Most;
+};
+
+/// Pixels that the lines of a tile may cover, and what they cover; room that is used again.
+struct RimWork
+{
+  // In groups of one rim each, as many as a vector holds.
+  std::vector<std::int32_t> pixels; ///< i + 32 j, with bits above
+  std::vector<const Rim*> rims;     ///< of each group
+
+  // What is covered of pixels.
+  std::vector<std::int32_t> at; ///< in TileLines
+  std::vector<std::int32_t> steps;
+  std::vector<float> strength, inside;
+  std::vector<std::uint32_t> shown;
+
+  // Room for so many, and vectors that are stored beyond.
+  void reserveListed(std::size_t count);
+  void reserveCovered(std::size_t count);
+};
+
+/// Paints the lines along rims one after the other. Keeps its memory in between.
+class RimBrush
+{
+public:
+  explicit RimBrush(const SilhouetteRule& rule);
+
+  /// Paints the lines along the rims of a tile, the strongest in each pixel. TileLines::front is
+  /// left to setFronts().
+  void paint(const RimTile& tile, const std::vector<Rim>& rims, RimLines& painted);
+
+  /// Pixels beyond an edge that its line can cover.
+  [[nodiscard]] int reach() const { return reach_; }
+
+private:
+  const SilhouetteRule& rule_;
+  int reach_;
+  RimWork work_;
+};
 }
 
 #endif

@@ -2,11 +2,12 @@
 #include "SharedDepth.h"
 
 #include "SharedTiles.h"
+#include "SphereDistances.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
 #include <stdexcept>
 
@@ -38,22 +39,6 @@ struct TilePixels
     }
   }
 };
-
-/// Where the ray through the centre of a pixel, which shows the sphere, meets it, as t.
-double distanceTo(const Sphere& sphere, const PrimaryRayFunctions& f, int x, int y)
-{
-  const double clipX = f.clipX(x + 0.5), clipY = f.clipY(y + 0.5);
-  const Vec3d direction = f.localDirection.at(clipX, clipY);
-  const Vec3d toCenter = sphere.center().as<double>() - f.localOrigin.at(clipX, clipY);
-  const double square = dot(direction, direction);
-  const double along = dot(toCenter, direction) / square;
-  const Vec3d beside = toCenter - along * direction;
-  const double radius = sphere.radius;
-  const double half = std::sqrt(std::max(0.0, radius * radius - dot(beside, beside)) / square);
-  const double worldLength = f.worldPerLocal > 0 ? f.worldPerLocal * std::sqrt(square)
-                                                 : length(f.worldDirection.at(clipX, clipY));
-  return (along - half) * worldLength;
-}
 
 PrimaryRays raysFor(const Camera& camera, const Matrix4& localToWorld)
 {
@@ -118,6 +103,7 @@ void SharedDepth::assemble(
     [&](std::size_t i)
     { setTile(arrived, &arrived.tiles[starts[i - 1]], arrived.tiles.data() + starts[i]); });
   firstSpheres_ = std::move(arrived.firstSphere);
+  processes_ = std::move(arrived.processes);
   spheres_ = std::move(arrived.spheres);
   if (!rays_.empty())
   {
@@ -151,22 +137,32 @@ void SharedDepth::addTo(const SharedTiles& arrived, const SharedTile& tile)
   for (int begin = 0; begin < pixels.columns * pixels.rows; run += 2)
   {
     const int end = begin + run[1] + 1;
-    if (tile.showsSphere(run[0]))
+    for (int k = begin; k < end && tile.showsSphere(run[0]);)
     {
+      const int i = k % pixels.columns, count = std::min(end - k, pixels.columns - i);
       const std::uint32_t number = firstSphere + tile.spheres[run[0]];
-      for (int k = begin; k < end; ++k)
-      {
-        const int x = pixels.x + k % pixels.columns, y = pixels.y + k / pixels.columns;
-        const auto at = static_cast<std::size_t>(y) * frame_.width + x;
-        const double t = distanceTo(arrived.spheres[number], rays, x, y);
-        if (t < frame_.t[at])
-        {
-          frame_.t[at] = t;
-          frame_.sphere[at] = number;
-        }
-      }
+      addRow(
+        arrived.spheres[number], number, rays, pixels.x + i, pixels.y + k / pixels.columns, count);
+      k += count;
     }
     begin = end;
+  }
+}
+
+/// Puts a sphere into some pixels of a row, as far as it is the nearest.
+void SharedDepth::addRow(const Sphere& sphere, std::uint32_t number,
+  const PrimaryRayFunctions& rays, int x, int y, int count)
+{
+  std::array<double, DepthTileSize + 8> distances;
+  distancesTo(sphere, rays, x, y, count, distances.data());
+  const auto first = static_cast<std::size_t>(y) * frame_.width + x;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
+  {
+    if (distances[i] < frame_.t[first + i])
+    {
+      frame_.t[first + i] = distances[i];
+      frame_.sphere[first + i] = number;
+    }
   }
 }
 
@@ -176,14 +172,21 @@ SphereDepth::NumberedSphere SharedDepth::sphereOf(std::uint32_t number) const
   return { static_cast<std::size_t>(next - firstSpheres_.begin() - 1), &spheres_[number] };
 }
 
-float SharedDepth::windowDepth(int x, int y) const
+float SharedDepth::windowDepth(int pixel) const
 {
-  const double t = frame_.t[static_cast<std::size_t>(y) * frame_.width + x];
+  const double t = frame_.t[static_cast<std::size_t>(pixel)];
   if (t == Infinity)
   {
     return 2;
   }
+  const int x = pixel % frame_.width, y = pixel / frame_.width;
   const PrimaryRay ray = rays_.front().at(x + 0.5, y + 0.5);
   return static_cast<float>(ray.windowDepth(t / ray.worldPerLocal));
+}
+
+int SharedDepth::processOf(int pixel) const
+{
+  const std::uint32_t sphere = frame_.sphere[static_cast<std::size_t>(pixel)];
+  return sphere == SphereScene::None ? 0 : processes_[sphereOf(sphere).layer];
 }
 }

@@ -28,7 +28,10 @@ public:
   [[nodiscard]] bool empty() const { return rays_.empty(); }
 
   /// Window depth of what a pixel shows, 0 at the near and 1 at the far plane, 2: nothing.
-  [[nodiscard]] float windowDepth(int x, int y) const;
+  [[nodiscard]] float windowDepth(int pixel) const;
+
+  /// The process whose sphere a pixel shows; 0 where there is none.
+  [[nodiscard]] int processOf(int pixel) const;
 
   [[nodiscard]] int width() const override { return frame_.width; }
   [[nodiscard]] int height() const override { return frame_.height; }
@@ -47,11 +50,14 @@ private:
   void clear(int width, int height);
   void setTile(const SharedTiles& arrived, const SharedTile* first, const SharedTile* last);
   void addTo(const SharedTiles& arrived, const SharedTile& tile);
+  void addRow(const Sphere& sphere, std::uint32_t number, const PrimaryRayFunctions& rays, int x,
+    int y, int count);
 
   TracedFrame frame_;       ///< t, sphere and tiles alone
   std::vector<int> filled_; ///< tiles of it
   std::vector<PrimaryRays> rays_;
   std::vector<std::uint32_t> firstSpheres_;
+  std::vector<int> processes_; ///< of the layers
   std::vector<Sphere> spheres_;
   std::optional<TracedDepth> merged_; ///< of the frame, as if all spheres were of one layer
 };

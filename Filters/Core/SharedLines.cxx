@@ -13,35 +13,51 @@ namespace
 {
 using Words = ProcessGroup::Words;
 
-constexpr float Steps = 65535;
+constexpr float Steps = 16383;
 constexpr float NoLine = 2;
+
+/// In window depth: rounding shall not hide a line behind what it lies in front of.
+constexpr float DepthTolerance = 5e-7F;
 
 /// The line in one pixel of a tile.
 struct LinePixel
 {
-  std::uint8_t place;         ///< in the tile, rows of DepthTileSize
-  std::int8_t frontX, frontY; ///< from the pixel to one in front
-  std::uint8_t unused;
-  std::uint16_t strength, inside;
+  unsigned place;     ///< in the tile, rows of DepthTileSize
+  int frontX, frontY; ///< from the pixel to one in front, -16 to 15
+  unsigned strength, inside;
+  unsigned process;
 };
-static_assert(sizeof(LinePixel) == sizeof(std::uint64_t));
 
-std::uint16_t stepsOf(float share)
+unsigned stepsOf(float share)
 {
-  return static_cast<std::uint16_t>(std::lround(Steps * std::clamp(share, 0.0F, 1.0F)));
+  return static_cast<unsigned>(std::lround(Steps * std::clamp(share, 0.0F, 1.0F)));
 }
 
 std::uint64_t wordOf(const LinePixel& pixel)
 {
-  std::uint64_t word = 0;
-  std::memcpy(&word, &pixel, sizeof(word));
-  return word;
+  std::uint64_t word = pixel.process;
+  word = word << 14U | pixel.inside;
+  word = word << 14U | pixel.strength;
+  word = word << 5U | static_cast<unsigned>(pixel.frontY + 16);
+  word = word << 5U | static_cast<unsigned>(pixel.frontX + 16);
+  return word << 8U | pixel.place;
 }
 
 LinePixel pixelOf(std::uint64_t word)
 {
+  const auto take = [&word](unsigned bits)
+  {
+    const auto value = static_cast<unsigned>(word & ((1U << bits) - 1));
+    word >>= bits;
+    return value;
+  };
   LinePixel pixel{};
-  std::memcpy(&pixel, &word, sizeof(pixel));
+  pixel.place = take(8);
+  pixel.frontX = static_cast<int>(take(5)) - 16;
+  pixel.frontY = static_cast<int>(take(5)) - 16;
+  pixel.strength = take(14);
+  pixel.inside = take(14);
+  pixel.process = take(16);
   return pixel;
 }
 
@@ -53,7 +69,7 @@ void append(const std::vector<float>& values, Words& words)
   std::memcpy(words.data() + end, values.data(), values.size() * sizeof(float));
 }
 
-void appendTile(const SilhouetteImage& image, int tile, const std::function<float(int)>& depthOf,
+void appendTile(const SilhouetteImage& image, int tile, const SharedDepth& depth, bool placed,
   Words& words, std::vector<float>& depths)
 {
   const int columns = depthTiles(image.width);
@@ -71,15 +87,18 @@ void appendTile(const SilhouetteImage& image, int tile, const std::function<floa
       {
         const int front = image.front[static_cast<std::size_t>(at)];
         const float inside = image.inside.empty() ? 0 : image.inside[static_cast<std::size_t>(at)];
-        words.push_back(wordOf({ static_cast<std::uint8_t>((j - y) * DepthTileSize + i - x),
-          static_cast<std::int8_t>(front % image.width - i),
-          static_cast<std::int8_t>(front / image.width - j), 0,
-          std::max<std::uint16_t>(1, stepsOf(strength)), stepsOf(inside) }));
-        depths.push_back(std::min(depthOf(at), depthOf(front)));
+        words.push_back(wordOf({ static_cast<unsigned>((j - y) * DepthTileSize + i - x),
+          front % image.width - i, front / image.width - j, std::max(1U, stepsOf(strength)),
+          stepsOf(inside), static_cast<unsigned>(depth.processOf(front)) }));
+        if (placed)
+        {
+          depths.push_back(
+            std::min(depth.windowDepth(at), depth.windowDepth(front)) - DepthTolerance);
+        }
       }
     }
   }
-  words[head] = static_cast<std::uint64_t>(tile) | std::uint64_t(depths.size()) << 32U;
+  words[head] = static_cast<std::uint64_t>(tile) | std::uint64_t(words.size() - head - 1) << 32U;
   append(depths, words);
 }
 
@@ -94,8 +113,9 @@ void resize(int width, int height, PlacedLines& lines)
     image.strength.assign(pixels, 0);
     image.front.assign(pixels, 0);
     image.inside.assign(pixels, 0);
-    image.tileHasLines.assign(static_cast<std::size_t>(depthTiles(width)) * depthTiles(height), 0);
+    image.tileRows.assign(static_cast<std::size_t>(depthTiles(width)) * depthTiles(height), 0);
     lines.windowDepth.assign(pixels, NoLine);
+    lines.process.assign(pixels, 0);
   }
 }
 
@@ -103,32 +123,28 @@ void clear(PlacedLines& lines)
 {
   SilhouetteImage& image = lines.image;
   const int columns = depthTiles(image.width);
-  for (std::size_t tile = 0; tile < image.tileHasLines.size(); ++tile)
+  for (std::size_t tile = 0; tile < image.tileRows.size(); ++tile)
   {
-    if (image.tileHasLines[tile] != 0)
-    {
-      clearTile(image, static_cast<int>(tile) % columns, static_cast<int>(tile) / columns);
-      image.tileHasLines[tile] = 0;
-    }
+    clearTile(static_cast<int>(tile) % columns, static_cast<int>(tile) / columns, image);
   }
 }
 }
 
-void appendLines(const SilhouetteImage& image, int firstRow, int endRow,
-  const std::function<float(int)>& depthOf, Words& words)
+void appendLines(const SilhouetteImage& image, int firstRow, int endRow, const SharedDepth& depth,
+  bool placed, Words& words)
 {
   const int columns = depthTiles(image.width);
   std::vector<float> depths;
   for (int tile = firstRow * columns; tile < endRow * columns; ++tile)
   {
-    if (image.tileHasLines[static_cast<std::size_t>(tile)] != 0)
+    if (image.tileRows[static_cast<std::size_t>(tile)] != 0)
     {
-      appendTile(image, tile, depthOf, words, depths);
+      appendTile(image, tile, depth, placed, words, depths);
     }
   }
 }
 
-void readLines(const Words& words, int width, int height, PlacedLines& lines)
+void readLines(const Words& words, int width, int height, bool placed, PlacedLines& lines)
 {
   resize(width, height, lines);
   clear(lines);
@@ -139,23 +155,25 @@ void readLines(const Words& words, int width, int height, PlacedLines& lines)
     const auto tile = static_cast<int>(*at & 0xFFFFFFFFU);
     const auto count = static_cast<std::ptrdiff_t>(*at++ >> 32U);
     const int x = tile % columns * DepthTileSize, y = tile / columns * DepthTileSize;
-    image.tileHasLines[static_cast<std::size_t>(tile)] = 1;
-    std::vector<float> depths(static_cast<std::size_t>(count));
-    if (count > 0)
+    std::vector<float> depths(static_cast<std::size_t>(count), NoLine);
+    if (count > 0 && placed)
     {
       std::memcpy(depths.data(), &*(at + count), depths.size() * sizeof(float));
     }
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
       const LinePixel pixel = pixelOf(at[i]);
-      const int place = (y + pixel.place / DepthTileSize) * width + x + pixel.place % DepthTileSize;
+      const int row = static_cast<int>(pixel.place) / DepthTileSize;
+      const int place = (y + row) * width + x + static_cast<int>(pixel.place) % DepthTileSize;
       const auto to = static_cast<std::size_t>(place);
+      image.tileRows[static_cast<std::size_t>(tile)] |= static_cast<std::uint16_t>(1U << row);
       image.strength[to] = static_cast<float>(pixel.strength) / Steps;
       image.inside[to] = static_cast<float>(pixel.inside) / Steps;
       image.front[to] = place + pixel.frontY * width + pixel.frontX;
+      lines.process[to] = static_cast<std::uint16_t>(pixel.process);
       lines.windowDepth[to] = depths[static_cast<std::size_t>(i)];
     }
-    at += count + (count + 1) / 2;
+    at += count + (placed ? (count + 1) / 2 : 0);
   }
 }
 }

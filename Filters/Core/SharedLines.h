@@ -2,33 +2,38 @@
 #ifndef po_SharedLines_h
 #define po_SharedLines_h
 
-// Lines on their way between processes: 12 bytes a pixel that has one.
+// Lines on their way between processes: 8 bytes a pixel that has one, 12 with its depth.
 
 #include "ProcessGroup.h"
+#include "SharedDepth.h"
 #include "SilhouetteFinder.h"
 
-#include <functional>
+#include <cstdint>
 #include <vector>
 
 namespace po
 {
-/// Lines with the window depth of what is in front of each, 2 where there is no line.
+/// Lines, and what is in front of each.
 struct PlacedLines
 {
   SilhouetteImage image; ///< with `front` and `inside`, which are 0 where they were not found
+  /// Of the front or of the pixel itself, whichever is nearer, a trifle in front of it. Only of
+  /// lines that were placed.
   std::vector<float> windowDepth;
+  std::vector<std::uint16_t> process; ///< that has what is in front
 };
 
 /// Appends the pixels of the tiles of some rows that have lines. Strength and `inside` are rounded
-/// to 1/65535.
+/// to 1/16383.
 /// @param firstRow, endRow of tiles
-/// @param depthOf window depth of a pixel, by its index
-void appendLines(const SilhouetteImage& image, int firstRow, int endRow,
-  const std::function<float(int)>& depthOf, ProcessGroup::Words& words);
+/// @param depth that they were found in
+/// @param placed with window depths
+void appendLines(const SilhouetteImage& image, int firstRow, int endRow, const SharedDepth& depth,
+  bool placed, ProcessGroup::Words& words);
 
-/// Replaces all lines by those of the words. The window depth of a line is that of its front or of
-/// the pixel itself, whichever is nearer.
-void readLines(const ProcessGroup::Words& words, int width, int height, PlacedLines& lines);
+/// Replaces all lines by those of the words, which are placed or not.
+void readLines(
+  const ProcessGroup::Words& words, int width, int height, bool placed, PlacedLines& lines);
 }
 
 #endif

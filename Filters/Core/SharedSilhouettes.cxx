@@ -16,9 +16,6 @@ using Words = ProcessGroup::Words;
 
 constexpr std::size_t WordBytes = sizeof(std::uint64_t);
 
-/// In window depth: rounding shall not hide a line behind what it lies in front of.
-constexpr float DepthTolerance = 5e-7F;
-
 /// What all processes together see in a tile, from the ranges of each.
 struct SharedRange
 {
@@ -119,8 +116,9 @@ std::vector<std::uint8_t> tilesAround(const std::vector<int>& searched, int colu
 
 /// What a process has to say about some rows of tiles: those that are needed, unless others hide
 /// them.
-Words tilesOf(const std::vector<TracedLayer>& own, const std::vector<std::uint8_t>& needed,
-  const std::vector<DepthRange>& ranges, int begin, int end)
+Words tilesOf(const std::vector<TracedLayer>& own, int process,
+  const std::vector<std::uint8_t>& needed, const std::vector<DepthRange>& ranges, int begin,
+  int end)
 {
   Words words;
   for (const TracedLayer& layer : own)
@@ -137,7 +135,7 @@ Words tilesOf(const std::vector<TracedLayer>& own, const std::vector<std::uint8_
     }
     if (!tiles.empty())
     {
-      appendTiles(layer, tiles, words);
+      appendTiles(layer, tiles, process, words);
     }
   }
   return words;
@@ -145,7 +143,7 @@ Words tilesOf(const std::vector<TracedLayer>& own, const std::vector<std::uint8_
 }
 
 void SharedSilhouettes::find(const std::vector<TracedLayer>& own, const Camera& camera,
-  const SilhouetteRule& rule, const ProcessGroup& group, int destination)
+  const SilhouetteRule& rule, const ProcessGroup& group, int destination, bool placed)
 {
   bytes_ = {};
   width_ = camera.width;
@@ -167,15 +165,51 @@ void SharedSilhouettes::find(const std::vector<TracedLayer>& own, const Camera& 
   if (!depth_.empty())
   {
     findTracedSilhouettes(depth_, rule, found_, { true, true });
-    const auto depthOf = [this](int pixel)
-    { return depth_.windowDepth(pixel % width_, pixel / width_) - DepthTolerance; };
-    appendLines(found_, first, end, depthOf, ownLines);
+    appendLines(found_, first, end, depth_, placed, ownLines);
   }
   const bool toAll = destination < 0;
   const int receivers = toAll ? group.size() - 1 : static_cast<int>(destination != group.rank());
   bytes_.lines = WordBytes * ownLines.size() * static_cast<std::size_t>(receivers);
   readLines(toAll ? group.gather(ownLines) : group.gatherAt(destination, ownLines), width_, height_,
-    lines_);
+    placed, lines_);
+}
+
+void SharedSilhouettes::shareColors(const std::uint8_t* own, bool all, const ProcessGroup& group)
+{
+  SilhouetteImage& image = lines_.image;
+  Words words;
+  for (std::size_t pixel = 0; pixel < image.strength.size(); ++pixel)
+  {
+    const bool isOwn = lines_.process[pixel] == group.rank() && image.strength[pixel] > 0;
+    if (isOwn && own && (all || image.inside[pixel] > 0))
+    {
+      const std::uint8_t* rgb = own + 4 * static_cast<std::ptrdiff_t>(image.front[pixel]);
+      words.push_back(pixel | std::uint64_t(rgb[0]) << 32U | std::uint64_t(rgb[1]) << 40U |
+        std::uint64_t(rgb[2]) << 48U);
+    }
+  }
+  bytes_.lines += WordBytes * words.size() * static_cast<std::size_t>(group.size() - 1);
+  colors_.resize(4 * image.strength.size());
+  for (const std::uint64_t word : group.gather(words))
+  {
+    const std::size_t pixel = word & 0xFFFFFFFFU;
+    image.front[pixel] = static_cast<std::int32_t>(pixel);
+    for (unsigned channel = 0; channel < 3; ++channel)
+    {
+      colors_[4 * pixel + channel] = static_cast<std::uint8_t>(word >> (32 + 8 * channel));
+    }
+  }
+}
+
+void SharedSilhouettes::keepOwn(int process)
+{
+  for (std::size_t pixel = 0; pixel < lines_.process.size(); ++pixel)
+  {
+    if (lines_.process[pixel] != process)
+    {
+      lines_.image.strength[pixel] = 0;
+    }
+  }
 }
 
 int SharedSilhouettes::columns() const
@@ -210,7 +244,7 @@ std::vector<int> SharedSilhouettes::searchedTiles(
   SilhouetteImage nothing;
   nothing.width = width_;
   nothing.height = height_;
-  nothing.tileHasLines.assign(ranges.size(), 0);
+  nothing.tileRows.assign(ranges.size(), 0);
   return tilesToSearch(ranges, rule, nothing, true);
 }
 
@@ -229,7 +263,8 @@ Words SharedSilhouettes::exchangeTiles(const std::vector<TracedLayer>& own,
       continue; // all know that nothing is needed there
     }
     const int begin = std::max(0, first - 1) * columns();
-    const Words words = tilesOf(own, needed, ranges, begin, std::min(rows(), end + 1) * columns());
+    const Words words =
+      tilesOf(own, group.rank(), needed, ranges, begin, std::min(rows(), end + 1) * columns());
     Words all = group.gatherAt(process, words);
     if (process == group.rank())
     {

@@ -7,6 +7,7 @@
 #include "SilhouetteRule.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct SharedBytes
 };
 
 /// The silhouettes of spheres that are divided over processes in any way: those that one process
-/// with all spheres would find, strengths rounded to 1/65535.
+/// with all spheres would find, strengths rounded to 1/16383.
 ///
 /// Each process has traced its own spheres, in the same view. All tell the depth range of each
 /// tile; a tile that can have no edge, or whose spheres another process hides for certain, needs
@@ -38,8 +39,21 @@ public:
   /// All processes must call it, with the same view and rule.
   /// @param own frames that this process has traced, maybe none; all of the camera's size
   /// @param destination that gets the lines; negative: all
+  /// @param placed with window depths
   void find(const std::vector<TracedLayer>& own, const Camera& camera, const SilhouetteRule& rule,
-    const ProcessGroup& group, int destination);
+    const ProcessGroup& group, int destination, bool placed);
+
+  /// Gives each line the colour in front of it, which one process has. All must call it, and all
+  /// must have the lines.
+  /// @param own RGBA bytes of what this process has traced, null if it has nothing
+  /// @param all colours; otherwise only those of lines that cover a rim
+  void shareColors(const std::uint8_t* own, bool all, const ProcessGroup& group);
+
+  /// RGBA bytes, of pixels with a line what is in front of it: `front` is the pixel itself then.
+  [[nodiscard]] const std::vector<std::uint8_t>& colors() const { return colors_; }
+
+  /// Removes lines around what other processes have.
+  void keepOwn(int process);
 
   /// Of the last picture; empty elsewhere than at the destination.
   [[nodiscard]] const PlacedLines& lines() const { return lines_; }
@@ -64,6 +78,7 @@ private:
   SharedDepth depth_;
   SilhouetteImage found_;
   PlacedLines lines_;
+  std::vector<std::uint8_t> colors_;
   SharedBytes bytes_;
 };
 }

@@ -132,7 +132,9 @@ public:
     {
       element = doubleOf(*at_++);
     }
-    const std::size_t spheres = *at_++, tiles = *at_++;
+    const std::size_t spheres = *at_ & 0xFFFFFFFFU;
+    result_.processes.push_back(static_cast<int>(*at_++ >> 32U));
+    const std::size_t tiles = *at_++;
     const std::size_t first = result_.spheres.size();
     result_.firstSphere.push_back(static_cast<std::uint32_t>(first));
     result_.spheres.resize(first + spheres);
@@ -168,7 +170,7 @@ private:
 };
 }
 
-void appendTiles(const TracedLayer& layer, const std::vector<int>& tiles, Words& words)
+void appendTiles(const TracedLayer& layer, const std::vector<int>& tiles, int process, Words& words)
 {
   std::vector<TileContent> contents(tiles.size());
   tbb::parallel_for(std::size_t(0), tiles.size(),
@@ -180,7 +182,7 @@ void appendTiles(const TracedLayer& layer, const std::vector<int>& tiles, Words&
   {
     words.push_back(wordOf(element));
   }
-  words.push_back(travelling.size());
+  words.push_back(travelling.size() | static_cast<std::uint64_t>(process) << 32U);
   words.push_back(tiles.size());
   std::vector<Sphere> spheres;
   spheres.reserve(travelling.size());

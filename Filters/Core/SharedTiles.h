@@ -17,8 +17,9 @@ namespace po
 /// Appends tiles of a layer: its placement, the spheres that are seen, and for each tile runs of
 /// pixels that show the same sphere.
 /// @param tiles numbers of tiles of DepthTileSize pixels, row by row from the lower left corner
+/// @param process that has the layer
 void appendTiles(
-  const TracedLayer& layer, const std::vector<int>& tiles, ProcessGroup::Words& words);
+  const TracedLayer& layer, const std::vector<int>& tiles, int process, ProcessGroup::Words& words);
 
 /// One tile of one layer, where it has arrived. Refers to the words.
 struct SharedTile
@@ -43,6 +44,7 @@ struct SharedTiles
 {
   std::vector<Matrix4> localToWorld;      ///< of each layer
   std::vector<std::uint32_t> firstSphere; ///< of each layer
+  std::vector<int> processes;             ///< of each layer
   std::vector<Sphere> spheres;            ///< in the coordinates of their layer
   std::vector<SharedTile> tiles;
 };

@@ -41,17 +41,10 @@ namespace po::HWY_NAMESPACE
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Edges are few: longer vectors would hold as many.
-using Tag = hn::CappedTag<float, 8>;
+using Tag = hn::CappedTag<float, EdgeGroup::Size>;
+using IntegerTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Lanes = hn::Mask<Tag>;
-constexpr std::size_t MostLanes = 8;
-
-/// Jumps of some samples side by side, 0 where there is no edge, and their front neighbours.
-struct EdgeLanes
-{
-  HWY_ALIGN float jumps[MostLanes];
-  HWY_ALIGN std::int32_t fronts[MostLanes];
-};
 
 /// Some samples side by side and what their neighbours say about them.
 class EdgeTest
@@ -75,63 +68,118 @@ public:
     return !hn::AllFalse(d_, steep);
   }
 
-  /// Which lanes are edges, one bit each.
-  std::uint32_t store(EdgeLanes& lanes)
+  /// Which lanes are edges, one bit each; their jumps and fronts are stored.
+  std::uint32_t find(EdgeGroup& group)
   {
-    addNeighbours();
-    const Lanes isBackground = hn::Eq(t_, infinity_);
-    const Lanes isBeside = hn::Lt(nearest_, infinity_);
-    const Lanes isDeep = hn::Gt(laplacian(), hn::Set(d_, limits_.threshold));
-    const Lanes isSteep = hn::Gt(jump_, hn::Set(d_, limits_.slopeTest ? limits_.jump : 0.0F));
-    const Floats inside = hn::IfThenElseZero(hn::And(isDeep, isSteep), jump_);
-    const Floats outline =
-      limits_.backgroundLines ? hn::IfThenElseZero(isBeside, infinity_) : hn::Zero(d_);
-    const Floats jumps = hn::IfThenElse(isBackground, outline, inside);
-    hn::Store(jumps, d_, lanes.jumps);
-    const hn::RebindToSigned<Tag> integers;
-    const Floats front = hn::IfThenElse(isBackground, nearestNeighbour_, front_);
-    hn::Store(hn::ConvertTo(integers, front), integers, lanes.fronts);
-    std::uint8_t bytes[8] = {}; // Highway may write that many
-    hn::StoreMaskBits(d_, hn::Gt(jumps, hn::Zero(d_)), bytes);
-    return bytes[0];
+    Floats steps[8];
+    Floats sum = hn::Zero(d_);
+    for (int k = 0; k < 8; ++k)
+    {
+      steps[k] = hn::Sub(t_, hn::LoadU(d_, center_ + offsetTo(k)));
+      sum = hn::Add(sum, steps[k]);
+    }
+    // Background makes steps, and their sum, infinite or not a number.
+    if (hn::AllTrue(d_, hn::Lt(hn::Abs(sum), infinity_)))
+    {
+      return findInside(steps, sum, group);
+    }
+    return findBesideBackground(group);
   }
 
 private:
-  void addNeighbours()
+  [[nodiscard]] int offsetTo(int k) const { return NeighbourJ[k] * stride_ + NeighbourI[k]; }
+
+  std::uint32_t findInside(const Floats* steps, Floats sum, EdgeGroup& group) const
   {
+    const Lanes isDeep = hn::Gt(sum, hn::Set(d_, limits_.threshold));
+    if (hn::AllFalse(d_, isDeep))
+    {
+      return 0;
+    }
+    Floats jump = hn::Zero(d_), front = hn::Zero(d_);
     for (int k = 0; k < 8; ++k)
     {
-      const int offset = NeighbourJ[k] * stride_ + NeighbourI[k];
-      const Floats number = hn::Set(d_, static_cast<float>(k));
-      const Floats n = hn::LoadU(d_, center_ + offset);
-      const Lanes isBackground = hn::Eq(n, infinity_);
-      const Floats step = hn::IfThenZeroElse(isBackground, hn::Sub(t_, n));
-      sum_ = hn::Add(sum_, step);
-      backgrounds_ = hn::Add(backgrounds_, hn::IfThenElseZero(isBackground, hn::Set(d_, 1.0F)));
-      largest_ = hn::Max(largest_, step);
-      nearestNeighbour_ = hn::IfThenElse(hn::Eq(n, nearest_), number, nearestNeighbour_);
-      const Floats jump = limits_.slopeTest ? hn::Sub(step, slopeBeside(n, offset)) : step;
-      const Lanes isLarger = hn::Gt(jump, jump_);
-      jump_ = hn::Max(jump, jump_);
-      front_ = hn::IfThenElse(isLarger, number, front_);
+      Floats slope = hn::Zero(d_);
+      if (limits_.slopeTest)
+      {
+        const Floats beyond = hn::LoadU(d_, center_ + 2 * offsetTo(k));
+        const Floats n = hn::LoadU(d_, center_ + offsetTo(k));
+        slope = slopeBeside(hn::Sub(n, beyond), hn::Neg(steps[7 - k]));
+      }
+      raise(hn::Sub(steps[k], slope), k, jump, front);
     }
+    const Lanes isSteep = hn::Gt(jump, hn::Set(d_, limits_.slopeTest ? limits_.jump : 0.0F));
+    return store(hn::And(isDeep, isSteep), jump, front, group);
   }
 
-  /// The slope before the jump or behind it, whichever is steeper.
-  [[nodiscard]] Floats slopeBeside(Floats n, int offset) const
+  /// As above, where any of the samples or neighbours is background.
+  std::uint32_t findBesideBackground(EdgeGroup& group) const
   {
-    // Background before the jump gives -infinity, behind it +infinity: neither is a slope.
-    const Floats before = hn::Sub(n, hn::LoadU(d_, center_ + 2 * offset));
-    const Floats b = hn::LoadU(d_, center_ - offset);
-    const Floats behind = hn::IfThenZeroElse(hn::Eq(b, infinity_), hn::Sub(b, t_));
+    Floats sum = hn::Zero(d_), backgrounds = hn::Zero(d_);
+    Floats largest = hn::Set(d_, limits_.jump);
+    Floats jump = hn::Zero(d_), front = hn::Zero(d_), nearest = hn::Zero(d_);
+    for (int k = 0; k < 8; ++k)
+    {
+      const Floats n = hn::LoadU(d_, center_ + offsetTo(k));
+      const Lanes isOpen = hn::Eq(n, infinity_);
+      const Floats step = hn::IfThenZeroElse(isOpen, hn::Sub(t_, n));
+      sum = hn::Add(sum, step);
+      // A sample lies in front of background by at least as much as behind anything else.
+      backgrounds = hn::Add(backgrounds, hn::IfThenElseZero(isOpen, hn::Set(d_, 1.0F)));
+      largest = hn::Max(largest, step);
+      nearest = hn::IfThenElse(hn::Eq(n, nearest_), number(k), nearest);
+      Floats slope = hn::Zero(d_);
+      if (limits_.slopeTest)
+      {
+        // Background before the jump gives -infinity, behind it +infinity: neither is a slope.
+        const Floats b = hn::LoadU(d_, center_ - offsetTo(k));
+        const Floats behind = hn::IfThenZeroElse(hn::Eq(b, infinity_), hn::Sub(b, t_));
+        slope = slopeBeside(hn::Sub(n, hn::LoadU(d_, center_ + 2 * offsetTo(k))), behind);
+      }
+      raise(hn::Sub(step, slope), k, jump, front);
+    }
+    const Lanes isBackground = hn::Eq(t_, infinity_);
+    const Floats laplacian = hn::Sub(sum, hn::Mul(backgrounds, largest));
+    const Lanes isDeep = hn::Gt(laplacian, hn::Set(d_, limits_.threshold));
+    const Lanes isSteep = hn::Gt(jump, hn::Set(d_, limits_.slopeTest ? limits_.jump : 0.0F));
+    const Floats inside = hn::IfThenElseZero(hn::And(isDeep, isSteep), jump);
+    const Floats outline = limits_.backgroundLines
+      ? hn::IfThenElseZero(hn::Lt(nearest_, infinity_), infinity_)
+      : hn::Zero(d_);
+    const Floats jumps = hn::IfThenElse(isBackground, outline, inside);
+    return store(
+      hn::Gt(jumps, hn::Zero(d_)), jumps, hn::IfThenElse(isBackground, nearest, front), group);
+  }
+
+  [[nodiscard]] Floats number(int k) const { return hn::Set(d_, static_cast<float>(k)); }
+
+  /// The slope before the jump or behind it, whichever is steeper.
+  [[nodiscard]] Floats slopeBeside(Floats before, Floats behind) const
+  {
     return hn::Max(hn::Zero(d_), hn::Max(before, behind));
   }
 
-  /// A sample lies in front of background by at least as much as behind anything else.
-  [[nodiscard]] Floats laplacian() const
+  static void raise(Floats candidate, int k, Floats& jump, Floats& front)
   {
-    const Floats step = hn::Max(largest_, hn::Set(d_, limits_.jump));
-    return hn::Sub(sum_, hn::Mul(backgrounds_, step));
+    const Tag d;
+    const Lanes isLarger = hn::Gt(candidate, jump);
+    jump = hn::Max(candidate, jump);
+    front = hn::IfThenElse(isLarger, hn::Set(d, static_cast<float>(k)), front);
+  }
+
+  /// @param front number of the neighbour in front
+  std::uint32_t store(Lanes isEdge, Floats jump, Floats front, EdgeGroup& group) const
+  {
+    const IntegerTag integers;
+    // Numbers 0 to 8, with the centre, count rows of three.
+    const Floats all = hn::IfThenElse(hn::Gt(front, number(3)), hn::Add(front, number(1)), front);
+    const auto place = hn::ConvertTo(integers, all);
+    const auto row = hn::ShiftRight<5>(hn::Mul(place, hn::Set(integers, 11))); // a third
+    hn::StoreU(jump, d_, group.jumps);
+    hn::StoreU(hn::Add(place, row), integers, group.fronts);
+    std::uint8_t bytes[8] = {}; // Highway may write that many
+    hn::StoreMaskBits(d_, isEdge, bytes);
+    return bytes[0];
   }
 
   const Tag d_;
@@ -140,8 +188,6 @@ private:
   int stride_;
   const Floats infinity_ = hn::Set(d_, std::numeric_limits<float>::infinity());
   Floats t_, nearest_;
-  Floats sum_ = hn::Zero(d_), backgrounds_ = hn::Zero(d_), largest_ = hn::Zero(d_);
-  Floats jump_ = hn::Zero(d_), front_ = hn::Zero(d_), nearestNeighbour_ = hn::Zero(d_);
 };
 
 /// The nearest of each sample of a row and its neighbours to the left and right.
@@ -155,30 +201,11 @@ inline void findNearest(const float* row, int count, float* nearest)
   }
 }
 
-/// Adds the edges among the lanes of `bits`, the first of which is sample (i, j).
-inline void addEdges(const EdgeLanes& lanes, std::uint32_t bits, const float* center, int stride,
-  int i, int j, std::vector<SilhouetteEdge>& edges)
-{
-  for (; bits != 0; bits &= bits - 1)
-  {
-    const auto lane = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-    const std::int32_t k = lanes.fronts[lane];
-    const int di = NeighbourI[k], dj = NeighbourJ[k];
-    // In place: a whole edge that is copied just after its parts were written stalls.
-    SilhouetteEdge& edge = edges.emplace_back();
-    edge.i = static_cast<std::int16_t>(i + lane);
-    edge.j = static_cast<std::int16_t>(j);
-    edge.frontI = static_cast<std::int16_t>(i + lane + di);
-    edge.frontJ = static_cast<std::int16_t>(j + dj);
-    edge.behind = center[lane];
-    edge.front = center[lane + dj * stride + di];
-    edge.jump = lanes.jumps[lane];
-  }
-}
-
 /// @param nearest room for three rows of the block
-void findEdges(const EdgeLimits& limits, const SampleBlock& block, const TestedSamples& tested,
-  std::vector<float>& nearest, std::vector<SilhouetteEdge>& edges)
+/// @param groups room for all samples
+/// @return number of groups that have edges
+std::size_t findEdges(const EdgeLimits& limits, const SampleBlock& block,
+  const TestedSamples& tested, std::vector<float>& nearest, EdgeGroup* groups)
 {
   const Tag d;
   const int lanes = static_cast<int>(hn::Lanes(d));
@@ -191,7 +218,7 @@ void findEdges(const EdgeLimits& limits, const SampleBlock& block, const TestedS
   float* above = here + size;
   findNearest(rowOf(tested.firstRow - 1), count, below);
   findNearest(rowOf(tested.firstRow), count, here);
-  EdgeLanes found;
+  std::size_t found = 0;
   for (int j = tested.firstRow; j < tested.lastRow; ++j)
   {
     const float* row = rowOf(j);
@@ -203,12 +230,18 @@ void findEdges(const EdgeLimits& limits, const SampleBlock& block, const TestedS
       if (test.any())
       {
         const std::uint32_t inside = count - i < 32 ? (1U << (count - i)) - 1 : ~0U;
-        addEdges(found, test.store(found) & inside, row + i, stride, tested.begin + i, j, edges);
+        // In place: to copy a group whose parts were just written stalls.
+        EdgeGroup& group = groups[found];
+        group.i = static_cast<std::int16_t>(tested.begin + i);
+        group.j = static_cast<std::int16_t>(j);
+        group.edges = test.find(group) & inside;
+        found += group.edges != 0;
       }
     }
     std::swap(below, here);
     std::swap(here, above);
   }
+  return found;
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -218,12 +251,9 @@ namespace po
 {
 HWY_EXPORT(findEdges);
 
-EdgeFinder::EdgeFinder(const SilhouetteRule& rule, int samples, int around)
+EdgeFinder::EdgeFinder(const SilhouetteRule& rule, int samples)
   : rule_(rule)
   , samples_(samples)
-  , around_(around)
-  // An edge looks at two samples in each direction.
-  , margin_(around + (samples == 1 ? 2 : 1))
 {
 }
 
@@ -238,22 +268,25 @@ void EdgeFinder::placeBackground()
 }
 
 bool EdgeFinder::find(
-  const DepthSource& source, int x, int y, int columns, int rows, const DepthRange& range)
+  const DepthSource& source, const PixelRange& searched, const PixelRange& read, double origin)
 {
-  block_.x = x - margin_;
-  block_.y = y - margin_;
-  block_.resize(columns + 2 * margin_, rows + 2 * margin_, samples_);
-  block_.origin = range.nearest;
+  block_.x = read.x0;
+  block_.y = read.y0;
+  block_.resize(read.x1 - read.x0, read.y1 - read.y0, samples_);
+  block_.origin = origin;
   source.fill(block_);
   placeBackground();
-  const int rim = (margin_ - around_) * samples_;
-  const TestedSamples tested{ rim, block_.stride() - rim, rim, block_.rows * samples_ - rim };
+  const TestedSamples tested{ (searched.x0 - read.x0) * samples_,
+    (searched.x1 - read.x0) * samples_, (searched.y0 - read.y0) * samples_,
+    (searched.y1 - read.y0) * samples_ };
   const EdgeLimits limits{ static_cast<float>(rule_.threshold), static_cast<float>(rule_.jump),
     static_cast<float>(smallestStep(rule_)), rule_.slopeTest, rule_.backgroundLines };
   nearest_.resize(3 * (static_cast<std::size_t>(block_.stride()) + SampleBlock::Slack));
-  edges_.clear();
-  HWY_DYNAMIC_DISPATCH(findEdges)(limits, block_, tested, nearest_, edges_);
-  return !edges_.empty();
+  // As many as there are in the shortest vectors of four samples, and one that may have no edge.
+  const int perRow = (tested.end - tested.begin + 3) / 4;
+  groups_.resize(static_cast<std::size_t>(perRow) * (tested.lastRow - tested.firstRow) + 1);
+  found_ = HWY_DYNAMIC_DISPATCH(findEdges)(limits, block_, tested, nearest_, groups_.data());
+  return found_ > 0;
 }
 }
 #endif

@@ -2,8 +2,11 @@
 #ifndef po_SilhouetteEdges_h
 #define po_SilhouetteEdges_h
 
+#include "Camera.h"
 #include "DepthSource.h"
 #include "SilhouetteRule.h"
+
+#include <hwy/base.h>
 
 #include <cstdint>
 #include <vector>
@@ -11,45 +14,88 @@
 /// Which samples of a depth image are edges: the rule of SilhouetteFinder.h.
 namespace po
 {
+/// Edges among samples side by side in one row of a block.
+struct EdgeGroup
+{
+  static constexpr int Size = 8;
+
+  std::int16_t i, j;   ///< column and row of the first sample in the block
+  std::uint32_t edges; ///< bit k: sample i + k lies behind a jump
+  // Of the samples of these bits; those of others have any value.
+  float jumps[Size]; ///< less the slopes where they are tested; infinite before the background
+  std::int32_t fronts[Size]; ///< where the sample in front is: 4 (dj + 1) + di + 1
+};
+
+/// Those of one block, in order.
+struct EdgeGroups
+{
+  const EdgeGroup* first;
+  const EdgeGroup* last;
+
+  [[nodiscard]] const EdgeGroup* begin() const { return first; }
+  [[nodiscard]] const EdgeGroup* end() const { return last; }
+};
+
+/// Columns (or rows) from a sample behind a jump to the one in front.
+[[nodiscard]] constexpr int columnsToFront(std::int32_t front)
+{
+  return front % 4 - 1;
+}
+[[nodiscard]] constexpr int rowsToFront(std::int32_t front)
+{
+  return front / 4 - 1;
+}
+
 /// A sample behind a jump, and the sample in front that it jumps from.
 struct SilhouetteEdge
 {
-  std::int16_t i, j;           ///< column and row of the block of samples
-  std::int16_t frontI, frontJ; ///< of the sample in front
-  float behind, front;         ///< depths, relative to the block's origin
-  float jump; ///< less the slopes where they are tested; infinite before the background
+  int i, j; ///< column and row in the block of samples
+  int frontI, frontJ;
+  std::int32_t front; ///< and jump: as in EdgeGroup
+  float jump;
 };
+
+/// Calls f(edge) for all edges.
+template <typename Function>
+void forEachEdge(const EdgeGroups& groups, const Function& f)
+{
+  for (const EdgeGroup& group : groups)
+  {
+    for (std::uint32_t left = group.edges; left != 0; left &= left - 1)
+    {
+      const auto k = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+      const int i = group.i + k;
+      f(SilhouetteEdge{ i, group.j, i + columnsToFront(group.fronts[k]),
+        group.j + rowsToFront(group.fronts[k]), group.fronts[k], group.jumps[k] });
+    }
+  }
+}
 
 /// Finds the edges of one block of samples after the other; keeps its memory in between.
 class EdgeFinder
 {
 public:
   /// @param samples along each side of a pixel
-  /// @param around pixels around a tile that are searched too
-  EdgeFinder(const SilhouetteRule& rule, int samples, int around);
+  EdgeFinder(const SilhouetteRule& rule, int samples);
 
-  /// Searches a tile of `columns` x `rows` pixels from pixel (x, y) on and what is around it, row
-  /// by row from the bottom. False if there is no edge.
-  /// @param range of the depths of the tile and all around it that is read
+  /// Searches some pixels of a picture, row by row from the bottom. False if there is no edge.
+  /// @param read pixels that the block will have: two samples around the searched ones, or more
+  /// @param origin of depth
   bool find(
-    const DepthSource& source, int x, int y, int columns, int rows, const DepthRange& range);
+    const DepthSource& source, const PixelRange& searched, const PixelRange& read, double origin);
 
-  [[nodiscard]] const std::vector<SilhouetteEdge>& edges() const { return edges_; }
+  [[nodiscard]] EdgeGroups groups() const { return { groups_.data(), groups_.data() + found_ }; }
   [[nodiscard]] const SampleBlock& block() const { return block_; }
-
-  /// Pixels of the block around the tile.
-  [[nodiscard]] int margin() const { return margin_; }
 
 private:
   void placeBackground();
 
   const SilhouetteRule& rule_;
   int samples_;
-  int around_;
-  int margin_;
   SampleBlock block_;
-  std::vector<float> nearest_; ///< of three rows, see findEdges()
-  std::vector<SilhouetteEdge> edges_;
+  std::vector<float> nearest_;    ///< of three rows, see findEdges()
+  std::vector<EdgeGroup> groups_; ///< room
+  std::size_t found_ = 0;         ///< of them in use
 };
 
 /// The smallest step to a neighbour that can make an edge.

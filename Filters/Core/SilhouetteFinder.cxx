@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteFinder.h"
 
+#include "EdgePixels.h"
 #include "SilhouetteEdges.h"
 #include "SilhouetteTiles.h"
 
@@ -21,60 +22,76 @@ public:
     : source_(source)
     , rule_(rule)
     , findFronts_(findFronts)
-    , spreads_(rule.samples > 1 || rule.maximumWidth > 1)
-    , finder_(rule, rule.samples, spreads_ ? reachOf(rule) : 0)
+    , reach_(reachOf(rule))
+    , margin_(reach_ + (rule.samples == 1 ? 2 : 1)) // an edge looks at two samples
+    , finder_(rule, rule.samples)
   {
   }
 
-  bool paint(int tileX, int tileY, const DepthRange& range, SilhouetteImage& image)
+  /// Pixels from which a line can reach into a tile.
+  static int reachOf(const SilhouetteRule& rule)
   {
-    const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
-    const int columns = std::min(DepthTileSize, image.width - x);
-    const int rows = std::min(DepthTileSize, image.height - y);
-    if (!finder_.find(source_, x, y, columns, rows, range))
+    const bool spreads = rule.samples > 1 || rule.maximumWidth > 1;
+    return spreads ? static_cast<int>(std::ceil(rule.maximumWidth)) + (rule.samples == 1 ? 2 : 1)
+                   : 0;
+  }
+
+  std::uint32_t paint(const SearchedTile& tile)
+  {
+    const int x = tile.x * DepthTileSize, y = tile.y * DepthTileSize;
+    const int columns = std::min(DepthTileSize, source_.width() - x);
+    const int rows = std::min(DepthTileSize, source_.height() - y);
+    if (reach_ == 0)
     {
-      return false;
+      const PixelRange read = grow(tile.edges, margin_);
+      return finder_.find(source_, tile.edges, read, tile.range.nearest) ? setEdges(tile) : 0;
     }
-    if (!spreads_)
+    // What is beside the picture counts too, and all of the tile: lines come from everywhere.
+    const PixelRange all{ x, y, x + columns, y + rows };
+    if (!finder_.find(source_, grow(all, reach_), grow(all, margin_), tile.range.nearest))
     {
-      writeEdges(x, y, image);
-      return true;
+      return 0;
     }
     cover_.assign(finder_.block().depth.size(), InfinityF);
     fronts_.resize(findFronts_ ? cover_.size() : 0);
     spread_.assign(cover_.size(), 0);
-    for (const SilhouetteEdge& edge : finder_.edges())
-    {
-      cover(finder_.block().indexOf(edge.i, edge.j), frontOf(edge));
-      spread(edge);
-    }
-    writeStrength(x, y, columns, rows, image);
-    return true;
+    forEachEdge(finder_.groups(),
+      [&](const SilhouetteEdge& edge)
+      {
+        cover(finder_.block().indexOf(edge.i, edge.j), frontOf(edge));
+        spread(edge);
+      });
+    return setCovered(columns, rows);
   }
 
+  [[nodiscard]] const TileLines& lines() const { return lines_; }
+
 private:
-  /// Pixels from which a line can reach into a tile.
-  static int reachOf(const SilhouetteRule& rule)
+  static PixelRange grow(const PixelRange& range, int pixels)
   {
-    return static_cast<int>(std::ceil(rule.maximumWidth)) + (rule.samples == 1 ? 2 : 1);
+    return { range.x0 - pixels, range.y0 - pixels, range.x1 + pixels, range.y1 + pixels };
   }
 
   /// Lines of one pixel: the edges themselves.
-  void writeEdges(int x, int y, SilhouetteImage& image) const
+  std::uint32_t setEdges(const SearchedTile& tile)
   {
-    const SampleBlock& block = finder_.block();
-    clearTile(image, x / DepthTileSize, y / DepthTileSize);
-    for (const SilhouetteEdge& edge : finder_.edges())
+    const std::uint32_t rows =
+      setEdgePixels(finder_, tile, source_.width(), source_.height(), lines_);
+    if (rule_.greyByJump)
     {
-      const int pixel = block.pixelOf(edge.i, edge.j, image.width, image.height);
-      image.strength[static_cast<std::size_t>(pixel)] =
-        rule_.greyByJump ? rule_.ramp.at(edge.behind - edge.front) : 1;
-      if (findFronts_)
-      {
-        image.front[static_cast<std::size_t>(pixel)] =
-          block.pixelOf(edge.frontI, edge.frontJ, image.width, image.height);
-      }
+      const SampleBlock& block = finder_.block();
+      forEachEdge(finder_.groups(),
+        [&](const SilhouetteEdge& edge)
+        {
+          const auto behind = static_cast<std::size_t>(block.indexOf(edge.i, edge.j));
+          const float jump =
+            block.depth[behind] - block.depth[static_cast<std::size_t>(frontOf(edge))];
+          const int at = TileLines::indexOf(
+            block.x + edge.i - tile.x * DepthTileSize, block.y + edge.j - tile.y * DepthTileSize);
+          lines_.strength[static_cast<std::size_t>(at)] = rule_.ramp.at(jump);
+        });
     }
+    return rows;
   }
 
   [[nodiscard]] int frontOf(const SilhouetteEdge& edge) const
@@ -149,21 +166,27 @@ private:
     int front = -1;     ///< sample in front of one of them
   };
 
-  void writeStrength(int x, int y, int columns, int rows, SilhouetteImage& image) const
+  std::uint32_t setCovered(int columns, int rows)
   {
+    std::uint32_t rowsWithLines = 0;
     for (int j = 0; j < rows; ++j)
     {
       for (int i = 0; i < columns; ++i)
       {
-        const std::size_t pixel = static_cast<std::size_t>(y + j) * image.width + x + i;
+        const auto at = static_cast<std::size_t>(TileLines::indexOf(i, j));
         const PixelLine line = lineIn(i, j);
-        image.strength[pixel] = line.strength / static_cast<float>(rule_.samples * rule_.samples);
+        lines_.strength[at] = line.strength / static_cast<float>(rule_.samples * rule_.samples);
+        if (line.covered > 0)
+        {
+          rowsWithLines |= 1U << static_cast<unsigned>(j);
+        }
         if (findFronts_ && line.front >= 0)
         {
-          writeFront(i, j, line, pixel, image);
+          setFront(i, j, line);
         }
       }
     }
+    return rowsWithLines;
   }
 
   [[nodiscard]] PixelLine lineIn(int i, int j) const
@@ -189,7 +212,7 @@ private:
   template <typename Function>
   void forEachSample(int i, int j, int first, int end, const Function& f) const
   {
-    const int margin = finder_.margin(), samples = rule_.samples;
+    const int margin = margin_, samples = rule_.samples;
     for (int dj = first; dj < end; ++dj)
     {
       const int row = (margin + j) * samples + dj;
@@ -203,29 +226,30 @@ private:
 
   /// The pixel in front of a line, one of those around it that show it at their centre, and what it
   /// covers of the pixel of the line where that shows what is behind.
-  void writeFront(
-    int i, int j, const PixelLine& line, std::size_t pixel, SilhouetteImage& image) const
+  void setFront(int i, int j, const PixelLine& line)
   {
-    image.front[pixel] = pixelOf(line.front, image);
+    const auto at = static_cast<std::size_t>(TileLines::indexOf(i, j));
+    lines_.front[at] =
+      pixelOf(line.front % finder_.block().stride(), line.front / finder_.block().stride());
     if (rule_.samples == 1)
     {
       return;
     }
-    image.inside[pixel] = 0;
+    lines_.inside[at] = 0;
     const float behind = line.farthest + static_cast<float>(rule_.jump);
     if (showsFront(i, j, behind))
     {
-      image.front[pixel] = static_cast<std::int32_t>(pixel);
+      lines_.front[at] = pixelAt(i, j);
       return;
     }
-    const int front = pixelThatShows(i, j, behind, image);
+    const int front = pixelThatShows(i, j, behind);
     if (front >= 0)
     {
       float uncovered = 0;
       forEachSample(i, j, 0, rule_.samples,
-        [&](std::size_t at) { uncovered += isFront(at, behind) ? 1.0F : 0.0F; });
-      image.front[pixel] = front;
-      image.inside[pixel] = uncovered * line.strength /
+        [&](std::size_t sample) { uncovered += isFront(sample, behind) ? 1.0F : 0.0F; });
+      lines_.front[at] = front;
+      lines_.inside[at] = uncovered * line.strength /
         (line.covered * static_cast<float>(rule_.samples * rule_.samples));
     }
   }
@@ -246,121 +270,43 @@ private:
   }
 
   /// One of the pixels around one that shows what is in front; -1 if none does.
-  [[nodiscard]] int pixelThatShows(int i, int j, float behind, const SilhouetteImage& image) const
+  [[nodiscard]] int pixelThatShows(int i, int j, float behind) const
   {
     for (const auto& [di, dj] : { std::pair(-1, 0), { 1, 0 }, { 0, -1 }, { 0, 1 }, { -1, -1 },
            { 1, -1 }, { -1, 1 }, { 1, 1 } })
     {
       if (showsFront(i + di, j + dj, behind))
       {
-        const int sample = finder_.margin() * rule_.samples;
-        return finder_.block().pixelOf(sample + (i + di) * rule_.samples,
-          sample + (j + dj) * rule_.samples, image.width, image.height);
+        return pixelAt(i + di, j + dj);
       }
     }
     return -1;
   }
 
-  [[nodiscard]] int pixelOf(int sample, const SilhouetteImage& image) const
+  /// Pixel of the picture at pixel (i, j) of the tile.
+  [[nodiscard]] int pixelAt(int i, int j) const
   {
-    const SampleBlock& block = finder_.block();
-    return block.pixelOf(
-      sample % block.stride(), sample / block.stride(), image.width, image.height);
+    const int samples = rule_.samples;
+    return pixelOf((margin_ + i) * samples, (margin_ + j) * samples);
+  }
+
+  /// Pixel of the picture that a sample of the block belongs to.
+  [[nodiscard]] int pixelOf(int sampleI, int sampleJ) const
+  {
+    return finder_.block().pixelOf(sampleI, sampleJ, source_.width(), source_.height());
   }
 
   const DepthSource& source_;
   const SilhouetteRule& rule_;
   bool findFronts_;
-  bool spreads_; ///< lines are wider than the edge samples
+  int reach_;
+  int margin_; ///< pixels around a tile that are read
   EdgeFinder finder_;
+  TileLines lines_{};
   std::vector<float> cover_;  ///< depth of the nearest front that covers a sample
   std::vector<int> fronts_;   ///< and its sample
   std::vector<float> spread_; ///< radius that a front sample has covered
 };
-}
-
-namespace
-{
-/// Can there be an edge between depths of this range? May err towards yes.
-bool mayHaveEdge(const SilhouetteRule& rule, DepthRange range)
-{
-  if (!range.hasGeometry())
-  {
-    return false;
-  }
-  if (range.background && rule.backgroundLines)
-  {
-    if (!std::isfinite(rule.background))
-    {
-      return true;
-    }
-    range.add(rule.background);
-  }
-  // Depths are searched as floats relative to the nearest, which may round the difference up.
-  return (range.farthest - range.nearest) * (1 + 1e-6) > smallestStep(rule);
-}
-}
-
-std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const SilhouetteRule& rule,
-  SilhouetteImage& image, bool skipTiles)
-{
-  const int columns = depthTiles(image.width), rows = depthTiles(image.height);
-  std::vector<int> searched;
-  std::vector<DepthRange> threeRows(static_cast<std::size_t>(columns));
-  for (int y = 0; y < rows; ++y)
-  {
-    for (int x = 0; x < columns; ++x)
-    {
-      threeRows[static_cast<std::size_t>(x)] = rangeOf(ranges, columns, x, x + 1, y - 1, y + 2);
-    }
-    for (int x = 0; x < columns; ++x)
-    {
-      const int tile = y * columns + x;
-      const DepthRange range = rangeOf(threeRows, columns, x - 1, x + 2, 0, 1);
-      std::uint8_t& had = image.tileHasLines[static_cast<std::size_t>(tile)];
-      if (range.hasGeometry() && !rule.drawsNothing() && (!skipTiles || mayHaveEdge(rule, range)))
-      {
-        searched.push_back(tile);
-      }
-      else if (had != 0)
-      {
-        clearTile(image, x, y);
-        had = 0;
-      }
-    }
-  }
-  return searched;
-}
-
-void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts)
-{
-  const auto pixels = static_cast<std::size_t>(source.width()) * source.height();
-  if (image.width != source.width() || image.height != source.height())
-  {
-    image.width = source.width();
-    image.height = source.height();
-    image.strength.assign(pixels, 0);
-    image.tileHasLines.assign(
-      static_cast<std::size_t>(depthTiles(image.width)) * depthTiles(image.height), 0);
-  }
-  image.front.resize(findFronts ? pixels : 0);
-}
-
-void clearTile(SilhouetteImage& image, int tileX, int tileY)
-{
-  const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
-  for (int j = y; j < std::min(y + DepthTileSize, image.height); ++j)
-  {
-    float* row = image.strength.data() + static_cast<std::ptrdiff_t>(j) * image.width + x;
-    if (image.width - x >= DepthTileSize)
-    {
-      std::fill_n(row, DepthTileSize, 0.0F); // of a length that the compiler knows
-    }
-    else
-    {
-      std::fill_n(row, image.width - x, 0.0F);
-    }
-  }
 }
 
 SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRule& rule,
@@ -368,7 +314,7 @@ SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRu
 {
   const auto pixels = static_cast<std::size_t>(source.width()) * source.height();
   image.inside.resize(options.findFronts && rule.samples > 1 ? pixels : 0);
-  return paintTiles(
-    source, rule, image, options, [&] { return SamplePainter(source, rule, options.findFronts); });
+  return paintTiles(source, rule, SamplePainter::reachOf(rule), image, options,
+    [&] { return SamplePainter(source, rule, options.findFronts); });
 }
 }

@@ -40,7 +40,8 @@ struct SilhouetteImage
   /// behind; weighted as the strength is, and valid where that is above 0. Empty unless asked for,
   /// and with one sample a pixel.
   std::vector<float> inside;
-  std::vector<std::uint8_t> tileHasLines; ///< tiles of DepthTileSize pixels
+  /// Of each tile of DepthTileSize pixels: bit j is set if its row j has lines.
+  std::vector<std::uint16_t> tileRows;
 };
 
 struct SilhouetteCounters
@@ -56,7 +57,7 @@ struct SilhouetteOptions
 };
 
 /// Finds the lines in parallel; the result does not depend on threads. `image` keeps its memory
-/// from call to call, and tiles without lines are written only where they had lines before.
+/// from call to call, and rows of tiles without lines are written only where they had lines before.
 SilhouetteCounters findSilhouettes(const DepthSource& source, const SilhouetteRule& rule,
   SilhouetteImage& image, const SilhouetteOptions& options = {});
 }

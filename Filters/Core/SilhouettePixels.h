@@ -22,9 +22,9 @@ constexpr float SilhouetteDarkness = 0.35F;
 /// Lines as pixels to be blended over a picture.
 struct SilhouettePixels
 {
-  std::vector<std::uint8_t> rgba; ///< alpha is what they cover of a pixel, times the opacity
-  std::vector<float> depth;       ///< window depth of what is in front of the line; 2: no line
-  std::vector<std::uint8_t> tileHasLines;
+  std::vector<std::uint8_t> rgba;      ///< alpha is what they cover of a pixel, times the opacity
+  std::vector<float> depth;            ///< window depth of what is in front of the line; 2: no line
+  std::vector<std::uint16_t> tileRows; ///< as in SilhouetteImage
 };
 
 /// What lines are coloured and placed by, for each pixel; null: not known.
@@ -36,9 +36,9 @@ struct SilhouetteSurroundings
   const float* lineDepth = nullptr;
 };
 
-/// Colours lines. Without a window depth lines lie in front of everything (0). Tiles without lines
-/// are written only where there were lines before. `lines.front` is needed for what is known of
-/// the surroundings.
+/// Colours lines. Without a window depth lines lie in front of everything (0). Rows of tiles
+/// without lines are written only where there were lines before. `lines.front` is needed for what
+/// is known of the surroundings.
 ///
 /// A line along a rim covers part of a pixel, and the sphere another part, though a picture of one
 /// ray a pixel shows what is behind there. With `surroundings.rgba` that part takes the sphere's

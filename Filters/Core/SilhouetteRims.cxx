@@ -1,214 +1,171 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SilhouetteRims.h"
 
-#include "RimShares.h"
+#include "RimFronts.h"
 #include "SilhouetteEdges.h"
 #include "SilhouetteTiles.h"
 
 #include <hwy/cache_control.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 namespace po
 {
 namespace
 {
-/// A sphere that lies in front of edges.
-struct FrontSphere
-{
-  SphereDepth::NumberedSphere sphere;
-  Rim rim;
-  std::size_t slot; ///< in the table of FrontSpheres
-};
-
-/// The spheres in front of the edges of one tile, each once: a hash table that is emptied quickly.
-class FrontSpheres
+/// The rims in front of the edges of one tile, each once: a hash table that is emptied quickly.
+class RimList
 {
 public:
-  FrontSpheres() { table_.fill({ SphereScene::None, 0 }); }
+  RimList() { table_.fill({ SphereScene::None, 0 }); }
 
   void clear()
   {
-    for (const FrontSphere& one : all_)
+    for (const Rim& rim : rims_)
     {
-      table_[one.slot].number = SphereScene::None;
+      table_[rim.slot].sphere = SphereScene::None;
     }
-    all_.clear();
+    rims_.clear();
   }
 
   /// The rim of the sphere of a number.
-  Rim& find(const SphereDepth& depth, std::uint32_t number)
+  Rim& find(const SphereDepth& depth, std::uint32_t sphere)
   {
-    std::size_t slot = number % Size;
-    while (table_[slot].number != number && table_[slot].number != SphereScene::None)
+    std::size_t slot = sphere % Size;
+    while (table_[slot].sphere != sphere && table_[slot].sphere != SphereScene::None)
     {
       slot = (slot + 1) % Size;
     }
     Entry& entry = table_[slot];
-    if (entry.number != number)
+    if (entry.sphere != sphere)
     {
-      entry = { number, static_cast<std::uint32_t>(all_.size()) };
-      FrontSphere& front = all_.emplace_back();
-      front.sphere = depth.sphereOf(number);
-      front.rim.number = static_cast<std::int32_t>(entry.place);
-      front.rim.shown = number;
-      front.slot = slot;
-      hwy::Prefetch(front.sphere.sphere);
+      entry = { sphere, static_cast<std::uint32_t>(rims_.size()) };
+      hwy::Prefetch(depth.sphereOf(sphere).sphere);
+      rims_.emplace_back(sphere, slot);
     }
-    return all_[entry.place].rim;
+    return rims_[entry.place];
   }
 
-  [[nodiscard]] std::vector<FrontSphere>& all() { return all_; }
+  [[nodiscard]] std::vector<Rim>& rims() { return rims_; }
 
 private:
-  /// Twice the edges that there can be.
-  static constexpr std::size_t Size =
-    2 * (DepthTileSize + 2 * RimTile::Border) * (DepthTileSize + 2 * RimTile::Border);
+  /// A power of two, larger than twice the edges that there can be.
+  static constexpr std::size_t Size = 2048;
+  static_assert(Size >= 2 * Rim::Side * Rim::Side);
 
   struct Entry
   {
-    std::uint32_t number;
-    std::uint32_t place; ///< in all_
+    std::uint32_t sphere;
+    std::uint32_t place; ///< in rims_
   };
 
   std::array<Entry, Size> table_{};
-  std::vector<FrontSphere> all_;
+  std::vector<Rim> rims_;
 };
 
 /// Paints the lines of one tile after the other along the rims of spheres.
 class RimPainter
 {
 public:
-  RimPainter(const SphereDepth& depth, const SilhouetteRule& rule, bool findFronts)
+  RimPainter(const SphereDepth& depth, const SilhouetteRule& rule)
     : depth_(depth)
-    , rule_(rule)
-    , findFronts_(findFronts)
-    , reach_(reachOfLines(rule))
-    , finder_(rule, 1, reach_)
+    , brush_(rule)
+    , finder_(rule, 1)
   {
   }
 
-  bool paint(int tileX, int tileY, const DepthRange& range, SilhouetteImage& image)
+  std::uint32_t paint(const SearchedTile& searched)
   {
-    x_ = tileX * DepthTileSize;
-    y_ = tileY * DepthTileSize;
-    columns_ = std::min(DepthTileSize, image.width - x_);
-    rows_ = std::min(DepthTileSize, image.height - y_);
-    if (!finder_.find(depth_, x_, y_, columns_, rows_, range))
+    x_ = searched.x * DepthTileSize;
+    y_ = searched.y * DepthTileSize;
+    columns_ = std::min(DepthTileSize, depth_.width() - x_);
+    rows_ = std::min(DepthTileSize, depth_.height() - y_);
+    const PixelRange read = pixelsAround();
+    depth_.prefetchSpheres(read);
+    if (!finder_.find(depth_, searched.edges, read, searched.range.nearest))
     {
-      return false;
+      return 0;
     }
+    placeEdges();
     const SampleBlock& block = finder_.block();
-    const int first = block.indexOf(finder_.margin(), finder_.margin());
-    depth_.fillSpheres(block, spheres_);
-    tile_.depth = block.depth.data() + first;
-    tile_.shown = spheres_.data() + first;
-    tile_.pitch = block.stride();
-    placeEdges(image);
-    patches_.clear();
-    for (std::size_t layer = 0; layer < depth_.layerCount(); ++layer)
-    {
-      patches_.push_back(makeRayPatch(depth_.raysOf(layer).around(x_ + Middle, y_ + Middle)));
-    }
-    tile_.strength.fill(0);
-    bool any = false;
-    for (FrontSphere& front : fronts_.all())
-    {
-      const RayPatch& patch = patches_[front.sphere.layer];
-      front.rim.squaredMoment = squaredMoment(patch, *front.sphere.sphere);
-      any |= paintRim(patch, front.rim, rule_, tile_);
-    }
-    if (any)
-    {
-      write(image);
-    }
-    return any;
+    const RimTile tile{ x_, y_, columns_, rows_, depth_.width(), depth_.height(),
+      block.depth.data(), spheres_.data(), fronts_.data(), toFront_.data(),
+      block.indexOf(x_ - block.x, y_ - block.y), block.stride() };
+    painted_.lines.strength.fill(0);
+    placeRims(block.origin);
+    brush_.paint(tile, rims_.rims(), painted_);
+    return setFronts(tile, brush_.reach(), painted_);
   }
+
+  [[nodiscard]] const TileLines& lines() const { return painted_.lines; }
 
 private:
   /// Where the rays of the tile are expanded: the centre of the pixel in the middle.
   static constexpr double Middle = DepthTileSize / 2 + 0.5;
 
-  /// Puts the edges into the tile, with the spheres in front of them.
-  void placeEdges(const SilhouetteImage& image)
+  /// From edges, which are as far away as lines reach, two pixels more are looked at.
+  [[nodiscard]] PixelRange pixelsAround() const
   {
-    fronts_.clear();
-    const int begin = RimTile::edgeIndexOf(-reach_, -reach_);
-    const int end = RimTile::edgeIndexOf(DepthTileSize + reach_, DepthTileSize + reach_);
-    std::fill(
-      tile_.rims.begin() + begin, tile_.rims.begin() + std::min<int>(end, tile_.rims.size()), -1);
+    const int around = brush_.reach() + 2;
+    return { x_ - around, y_ - around, x_ + columns_ + around, y_ + rows_ + around };
+  }
+
+  /// Sorts the edges by the spheres in front of them.
+  void placeEdges()
+  {
     const SampleBlock& block = finder_.block();
-    for (const SilhouetteEdge& edge : finder_.edges())
-    {
-      const int front = block.indexOf(edge.frontI, edge.frontJ);
-      const std::uint32_t sphere = spheres_[static_cast<std::size_t>(front)];
-      if (sphere == SphereScene::None)
+    depth_.fillSpheres(block, spheres_);
+    rims_.clear();
+    fronts_.assign(spheres_.size(), SphereScene::None);
+    toFront_.resize(spheres_.size());
+    forEachEdge(finder_.groups(),
+      [&](const SilhouetteEdge& edge)
       {
-        continue; // a background that is placed before the spheres has no rim
-      }
-      Rim& rim = fronts_.find(depth_, sphere);
-      const int i = edge.i - finder_.margin(), j = edge.j - finder_.margin();
-      const auto at = static_cast<std::size_t>(RimTile::edgeIndexOf(i, j));
-      tile_.rims[at] = rim.number;
-      tile_.fronts[at] = edge.front;
-      tile_.jumps[at] = edge.behind - edge.front;
-      tile_.frontPixels[at] = block.pixelOf(edge.frontI, edge.frontJ, image.width, image.height);
-      addReach(rim, i, j);
-    }
+        const auto front = static_cast<std::size_t>(block.indexOf(edge.frontI, edge.frontJ));
+        const std::uint32_t sphere = spheres_[front];
+        if (sphere == SphereScene::None)
+        {
+          return; // a background that is placed before the spheres has no rim
+        }
+        const auto at = static_cast<std::size_t>(block.indexOf(edge.i, edge.j));
+        fronts_[at] = sphere;
+        toFront_[at] = edge.front;
+        Rim& rim = rims_.find(depth_, sphere);
+        const auto i = static_cast<unsigned>(block.x + edge.i - x_ + Rim::Border);
+        const auto j = static_cast<unsigned>(block.y + edge.j - y_ + Rim::Border);
+        rim.edges[j] |= 1U << i;
+        rim.rows |= 1U << j;
+      });
   }
 
-  /// Notes the pixels that the line of an edge can cover.
-  void addReach(Rim& rim, int i, int j) const
+  void placeRims(double depthOrigin)
   {
-    const int first = std::max(0, i - reach_), end = std::min(columns_, i + reach_ + 1);
-    const std::uint32_t bits = first < end ? (1U << end) - (1U << first) : 0;
-    for (int row = std::max(0, j - reach_); row < std::min(rows_, j + reach_ + 1); ++row)
+    patches_.clear();
+    for (std::size_t layer = 0; layer < depth_.layerCount(); ++layer)
     {
-      rim.pixels[static_cast<std::size_t>(row)] |= bits;
+      patches_.push_back(makeRayPatch(depth_.raysOf(layer).around(x_ + Middle, y_ + Middle)));
     }
-  }
-
-  void write(SilhouetteImage& image) const
-  {
-    for (int row = 0; row < rows_; ++row)
+    for (Rim& rim : rims_.rims())
     {
-      writeRow(tile_.strength, row, image, image.strength);
-      if (findFronts_)
-      {
-        writeRow(tile_.inside, row, image, image.inside);
-        writeRow(tile_.front, row, image, image.front);
-      }
-    }
-  }
-
-  template <typename T>
-  void writeRow(
-    const RimTile::Pixels<T>& from, int row, const SilhouetteImage& image, std::vector<T>& to) const
-  {
-    const T* first = from.data() + RimTile::indexOf(0, row);
-    T* target = to.data() + static_cast<std::ptrdiff_t>(y_ + row) * image.width + x_;
-    if (columns_ == DepthTileSize)
-    {
-      std::copy(first, first + DepthTileSize, target); // of a length that the compiler knows
-    }
-    else
-    {
-      std::copy(first, first + columns_, target);
+      const SphereDepth::NumberedSphere front = depth_.sphereOf(rim.shown);
+      rim.patch = &patches_[front.layer];
+      rim.squaredMoment = squaredMoment(*rim.patch, *front.sphere);
+      rim.depth = static_cast<float>(rimDepth(*rim.patch, *front.sphere) - depthOrigin);
     }
   }
 
   const SphereDepth& depth_;
-  const SilhouetteRule& rule_;
-  bool findFronts_;
-  int reach_; ///< pixels beyond an edge that its line can cover
+  RimBrush brush_;
   EdgeFinder finder_;
-  FrontSpheres fronts_;
+  RimList rims_;
   std::vector<RayPatch> patches_;      ///< one a layer
   std::vector<std::uint32_t> spheres_; ///< that the pixels of the block show
+  // Of the pixels of the block, see RimTile.
+  std::vector<std::uint32_t> fronts_;
+  std::vector<std::int32_t> toFront_;
+  RimLines painted_{};
   int x_ = 0, y_ = 0, columns_ = 0, rows_ = 0;
-  RimTile tile_{};
 };
 }
 
@@ -222,6 +179,6 @@ SilhouetteCounters findTracedSilhouettes(const SphereDepth& depth, const Silhoue
   const auto pixels = static_cast<std::size_t>(depth.width()) * depth.height();
   image.inside.resize(options.findFronts ? pixels : 0);
   return paintTiles(
-    depth, rule, image, options, [&] { return RimPainter(depth, rule, options.findFronts); });
+    depth, rule, RimBrush(rule).reach(), image, options, [&] { return RimPainter(depth, rule); });
 }
 }

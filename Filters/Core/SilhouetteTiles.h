@@ -2,65 +2,75 @@
 #ifndef po_SilhouetteTiles_h
 #define po_SilhouetteTiles_h
 
+#include "Camera.h"
 #include "SilhouetteFinder.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 /// The loop over tiles that all ways to draw silhouettes share.
 namespace po
 {
-/// The range of tiles [x0, x1) x [y0, y1) of an image of so many columns, as far as they lie in it.
-[[nodiscard]] inline DepthRange rangeOf(
-  const std::vector<DepthRange>& ranges, int columns, int x0, int x1, int y0, int y1)
+/// The lines of one tile. Rows are longer than the tile, for whole vectors.
+struct TileLines
 {
-  const int rows = static_cast<int>(ranges.size()) / columns;
-  DepthRange range;
-  for (int y = std::max(0, y0); y < std::min(rows, y1); ++y)
-  {
-    for (int x = std::max(0, x0); x < std::min(columns, x1); ++x)
-    {
-      range.add(ranges[static_cast<std::size_t>(y) * columns + x]);
-    }
-  }
-  return range;
-}
+  static constexpr int Pitch = DepthTileSize + 8;
+
+  template <typename T>
+  using Pixels = std::array<T, DepthTileSize * Pitch>;
+
+  [[nodiscard]] static constexpr int indexOf(int i, int j) { return j * Pitch + i; }
+
+  // As in SilhouetteImage; the last two where there is a line.
+  Pixels<float> strength, inside;
+  Pixels<std::int32_t> front;
+};
 
 /// Gives the image the size of the source. What is there stays if it has that size.
 void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts);
 
-void clearTile(SilhouetteImage& image, int tileX, int tileY);
+/// Writes those rows of a tile that have lines, one bit each, and clears those that had some.
+void writeRows(
+  const TileLines& lines, std::uint32_t rows, int tileX, int tileY, SilhouetteImage& image);
+
+void clearTile(int tileX, int tileY, SilhouetteImage& image);
 
 /// The tiles that may have lines. Those of the others that had lines before are cleared.
 [[nodiscard]] std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges,
   const SilhouetteRule& rule, SilhouetteImage& image, bool skipTiles);
 
+/// A tile that may have lines.
+struct SearchedTile
+{
+  int x, y;         ///< column and row of the tile
+  DepthRange range; ///< of it and the tiles around
+  PixelRange edges; ///< where edges may lie whose lines reach into it
+};
+
+/// @param tile its number
+/// @param reach pixels from an edge that its line can cover
+[[nodiscard]] SearchedTile searchedTile(const DepthSource& source, int tile, int reach);
+
 /// Paints all tiles in parallel, but those that cannot have lines.
 ///
-/// @param makePainter makes what one thread paints with: bool paint(tileX, tileY, range, image)
-///   writes the strength of all pixels of a tile, or returns false where it has no lines
+/// @param reach pixels from an edge that its line can cover
+/// @param makePainter makes what one thread paints with: std::uint32_t paint(searched tile) gives
+///   the rows that have lines, one bit each, and lines() all of their pixels
 template <typename MakePainter>
-SilhouetteCounters paintTiles(const DepthSource& source, const SilhouetteRule& rule,
+SilhouetteCounters paintTiles(const DepthSource& source, const SilhouetteRule& rule, int reach,
   SilhouetteImage& image, const SilhouetteOptions& options, const MakePainter& makePainter)
 {
   resizeFor(image, source, options.findFronts);
-  const int columns = depthTiles(image.width);
-  const std::vector<DepthRange>& ranges = source.ranges();
-  const std::vector<int> searched = tilesToSearch(ranges, rule, image, options.skipTiles);
-  const auto paintTile = [&](auto& painter, int tile)
+  const std::vector<int> searched = tilesToSearch(source.ranges(), rule, image, options.skipTiles);
+  const auto paintTile = [&](auto& painter, int number)
   {
-    const int x = tile % columns, y = tile / columns;
-    const DepthRange range = rangeOf(ranges, columns, x - 1, x + 2, y - 1, y + 2);
-    std::uint8_t& had = image.tileHasLines[static_cast<std::size_t>(tile)];
-    const bool lines = painter.paint(x, y, range, image);
-    if (!lines && had != 0)
-    {
-      clearTile(image, x, y);
-    }
-    had = lines;
+    const SearchedTile tile = searchedTile(source, number, reach);
+    writeRows(painter.lines(), painter.paint(tile), tile.x, tile.y, image);
   };
   tbb::enumerable_thread_specific<decltype(makePainter())> painters(makePainter);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, searched.size(), 32),
@@ -72,7 +82,7 @@ SilhouetteCounters paintTiles(const DepthSource& source, const SilhouetteRule& r
         paintTile(painter, searched[i]);
       }
     });
-  const std::size_t tiles = ranges.size();
+  const std::size_t tiles = source.ranges().size();
   return { tiles, tiles - searched.size() };
 }
 }

@@ -58,10 +58,12 @@ public:
     BakeCounters& counters) const override;
 
   /// Of particles that are overlapped; others need 8 less (see VisibilityRecords). The error bars
-  /// of all particles take 16.
+  /// of all particles take 16. Out of core the 8 remain, of those that are seen: together with the
+  /// linear table, which is there for a moment only (see TextureIntake), the number here covered
+  /// all that was measured, in a set in which all particles overlap too.
   [[nodiscard]] double bytesPerTexel() const override
   {
-    return options_.targetError > 0 ? 29 : (options_.outOfCore ? 8 : 13);
+    return options_.targetError > 0 ? 29 : (options_.outOfCore ? 3 : 13);
   }
 
   [[nodiscard]] double estimatedError() const override { return report_.estimatedError; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TextureTable.h"
 
+#include "Random.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -20,18 +22,47 @@ namespace
 
 std::int32_t RowIndex::findOrAdd(const char* row, const char* rows, std::int32_t count)
 {
-  const std::size_t hash = std::hash<std::string_view>{}({ row, bytesPerRow_ });
-  const auto [first, last] = rowsByHash_.equal_range(hash);
-  for (auto candidate = first; candidate != last; ++candidate)
+  if (4 * static_cast<std::size_t>(count) >= 3 * slots_.size())
   {
-    const char* known = rows + static_cast<std::size_t>(candidate->second) * bytesPerRow_;
-    if (std::memcmp(known, row, bytesPerRow_) == 0)
+    grow();
+  }
+  const auto hash =
+    static_cast<std::uint32_t>(mixBits(std::hash<std::string_view>{}({ row, bytesPerRow_ })));
+  Slot& slot = find(hash,
+    [&](std::int32_t known)
     {
-      return candidate->second;
+      const char* there = rows + static_cast<std::size_t>(known) * bytesPerRow_;
+      return std::memcmp(there, row, bytesPerRow_) == 0;
+    });
+  if (slot.row < 0)
+  {
+    slot = { hash, count };
+  }
+  return slot.row;
+}
+
+template <typename IsEqual>
+RowIndex::Slot& RowIndex::find(std::uint32_t hash, IsEqual isEqual)
+{
+  std::size_t place = hash & (slots_.size() - 1);
+  while (slots_[place].row >= 0 && (slots_[place].hash != hash || !isEqual(slots_[place].row)))
+  {
+    place = (place + 1) & (slots_.size() - 1);
+  }
+  return slots_[place];
+}
+
+void RowIndex::grow()
+{
+  std::vector<Slot> known(std::max<std::size_t>(64, 2 * slots_.size()));
+  known.swap(slots_);
+  for (const Slot& slot : known)
+  {
+    if (slot.row >= 0)
+    {
+      find(slot.hash, [](std::int32_t) { return false; }) = slot;
     }
   }
-  rowsByHash_.emplace(hash, count);
-  return count;
 }
 
 TextureTable::TextureTable(int resolution, std::size_t expected)

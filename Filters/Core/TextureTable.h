@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace po
@@ -28,8 +27,20 @@ public:
   std::int32_t findOrAdd(const char* row, const char* rows, std::int32_t count);
 
 private:
+  /// Of a hash table without lists: 11 to 21 bytes a row, where those of the library take 48.
+  struct Slot
+  {
+    std::uint32_t hash = 0;
+    std::int32_t row = -1; ///< none
+  };
+
+  /// The slot of an equal row, or the empty one where it belongs.
+  template <typename IsEqual>
+  [[nodiscard]] Slot& find(std::uint32_t hash, IsEqual isEqual);
+  void grow();
+
   std::size_t bytesPerRow_;
-  std::unordered_multimap<std::size_t, std::int32_t> rowsByHash_;
+  std::vector<Slot> slots_; ///< as many as a power of two
 };
 
 /// The distinct linear textures of a bake, one row of T * T values each.

@@ -176,6 +176,21 @@ void TracedDepth::fillSpheres(const SampleBlock& block, std::vector<std::uint32_
   }
 }
 
+void TracedDepth::prefetchSpheres(const PixelRange& pixels) const
+{
+  const PixelRange seen = intersect(pixels, { 0, 0, width(), height() });
+  for (const TracedLayer& layer : layers_)
+  {
+    for (int y = seen.y0; y < seen.y1; ++y)
+    {
+      const std::uint32_t* row =
+        layer.frame.sphere.data() + static_cast<std::ptrdiff_t>(y) * width();
+      hwy::Prefetch(row + seen.x0);
+      hwy::Prefetch(row + seen.x1 - 1);
+    }
+  }
+}
+
 void TracedDepth::fill(SampleBlock& block) const
 {
   HWY_DYNAMIC_DISPATCH(fillDepths)(layers_, block);

@@ -2,6 +2,7 @@
 #include "SharedPicture.h"
 
 #include "ControllerGroup.h"
+#include "DrawnProps.h"
 #include "RenderState.h"
 #include "SphereRenderer.h"
 #include "vtkRayTracedSphereMapper.h"
@@ -11,11 +12,34 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
+#include <functional>
 #include <new>
 #include <stdexcept>
 
 namespace po
 {
+namespace
+{
+/// What went wrong, the same on all processes.
+std::string runForLines(const ProcessGroup& group, const std::function<void()>& work)
+{
+  std::string error;
+  const auto run = [&]
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::bad_alloc&)
+    {
+      throw std::runtime_error("Memory ran out for lines of several processes.");
+    }
+  };
+  static_cast<void>(runTogether(group, run, error));
+  return error;
+}
+}
+
 OwnFrames framesOf(const std::vector<vtkProp*>& props, vtkRenderer* renderer, int width, int height)
 {
   OwnFrames own{ {}, cameraOf(renderer, width, height), true };
@@ -41,13 +65,26 @@ OwnFrames framesOf(const std::vector<vtkProp*>& props, vtkRenderer* renderer, in
   return own;
 }
 
+SilhouetteScale scaleOf(const std::vector<vtkProp*>& props)
+{
+  return scaleOf(visibleActorsOf(props)).value_or(SilhouetteScale{});
+}
+
 std::optional<SilhouetteScale> agreedScale(const SilhouetteOffer& own, const ProcessGroup& group)
 {
   constexpr std::size_t Words = 4;
   const auto size =
     static_cast<std::uint64_t>(own.width) << 32U | static_cast<std::uint64_t>(own.height);
-  const ProcessGroup::Words all = group.gather(
-    { own.canShare ? 1U : 0U, size, wordOf(own.scale.meanRadius), wordOf(own.scale.depthRange) });
+  ProcessGroup::Words all;
+  try
+  {
+    all = group.gather(
+      { own.canShare ? 1U : 0U, size, wordOf(own.scale.meanRadius), wordOf(own.scale.depthRange) });
+  }
+  catch (const WorkStopped&)
+  {
+    return std::nullopt; // for all of them
+  }
   SilhouetteScale scale;
   bool agreed = true;
   for (std::size_t at = 0; at < all.size(); at += Words)
@@ -60,21 +97,20 @@ std::optional<SilhouetteScale> agreedScale(const SilhouetteOffer& own, const Pro
 }
 
 std::string findTogether(const OwnFrames& own, const SilhouetteRule& rule,
-  const ProcessGroup& group, int destination, SharedSilhouettes& silhouettes)
+  const ProcessGroup& group, int destination, bool placed, SharedSilhouettes& silhouettes)
 {
-  std::string error;
-  const auto find = [&]
-  {
-    try
+  return runForLines(group,
+    [&] { silhouettes.find(layersOf(own.actors), own.camera, rule, group, destination, placed); });
+}
+
+std::string findWithColors(const OwnFrames& own, const SilhouetteRule& rule,
+  const ProcessGroup& group, const OwnColors& colors, SharedSilhouettes& silhouettes)
+{
+  return runForLines(group,
+    [&]
     {
-      silhouettes.find(layersOf(own.actors), own.camera, rule, group, destination);
-    }
-    catch (const std::bad_alloc&)
-    {
-      throw std::runtime_error("Memory ran out for lines of several processes.");
-    }
-  };
-  static_cast<void>(runTogether(group, find, error));
-  return error;
+      silhouettes.find(layersOf(own.actors), own.camera, rule, group, -1, true);
+      silhouettes.shareColors(colors.rgba, colors.all, group);
+    });
 }
 }

@@ -38,15 +38,30 @@ struct SilhouetteOffer
   SilhouetteScale scale; ///< zeros where it knows of no spheres
 };
 
+/// The scale of the ray-traced spheres among the props that are visible, zeros if there are none.
+[[nodiscard]] SilhouetteScale scaleOf(const std::vector<vtkProp*>& props);
+
 /// The scale to go by, if all processes can share in the lines of one picture; all must call it,
 /// and all get the same.
 [[nodiscard]] std::optional<SilhouetteScale> agreedScale(
   const SilhouetteOffer& own, const ProcessGroup& group);
 
 /// Finds the lines at the process `destination`, or at all if it is negative.
+/// @param placed with window depths
 /// @return what went wrong, the same on all processes; empty if nothing did
 [[nodiscard]] std::string findTogether(const OwnFrames& own, const SilhouetteRule& rule,
-  const ProcessGroup& group, int destination, SharedSilhouettes& silhouettes);
+  const ProcessGroup& group, int destination, bool placed, SharedSilhouettes& silhouettes);
+
+/// What lines are coloured by that lie around the spheres of this process.
+struct OwnColors
+{
+  const std::uint8_t* rgba = nullptr; ///< of its frames, null if it has none
+  bool all = false;                   ///< are they wanted of all lines, not of smooth rims alone?
+};
+
+/// The same for all processes, placed and with the colours in front of the lines.
+[[nodiscard]] std::string findWithColors(const OwnFrames& own, const SilhouetteRule& rule,
+  const ProcessGroup& group, const OwnColors& colors, SharedSilhouettes& silhouettes);
 }
 
 #endif

@@ -12,6 +12,9 @@ namespace po
 {
 namespace
 {
+/// Below 1 in buffers of 24 bits and of floats.
+constexpr float JustBeforeFarPlane = 1 - 2e-7F;
+
 int attachmentParameter(GLenum attachment, GLenum parameter)
 {
   GLint value = 0;
@@ -218,7 +221,8 @@ std::string SilhouettePainter::upload(const SilhouettePixels& pixels, int width,
 }
 
 std::string SilhouettePainter::draw(vtkOpenGLRenderWindow* window,
-  const SilhouetteViewport& viewport, int margin, const SilhouettePixels& pixels)
+  const SilhouetteViewport& viewport, int margin, const SilhouettePixels& pixels,
+  bool markBackground)
 {
   use(window);
   const int width = viewport.width + 2 * margin, height = viewport.height + 2 * margin;
@@ -241,7 +245,16 @@ std::string SilhouettePainter::draw(vtkOpenGLRenderWindow* window,
   window->GetShaderCache()->ReadyShaderProgram(quad_->Program);
   const ActiveTexture colors(quad_->Program, "colors", colors_);
   const ActiveTexture depths(quad_->Program, "depths", depths_);
+  quad_->Program->SetUniformf("depthOfAll", 0);
   quad_->Render();
+  if (markBackground)
+  {
+    const vtkOpenGLState::ScopedglColorMask colorMask(state);
+    state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    state->vtkglDepthMask(GL_TRUE);
+    quad_->Program->SetUniformf("depthOfAll", JustBeforeFarPlane);
+    quad_->Render();
+  }
   return "";
 }
 

@@ -43,8 +43,10 @@ public:
   /// Blends lines over the frame buffer that is bound for drawing, except where what is there is
   /// nearer. The lines reach `margin` pixels beyond the viewport on each side; depth is not
   /// written.
+  /// @param markBackground give lines that are drawn on the background a depth just before the far
+  /// plane: for pictures that are composited by depth, where a pixel without depth does not count
   std::string draw(vtkOpenGLRenderWindow* window, const SilhouetteViewport& viewport, int margin,
-    const SilhouettePixels& pixels);
+    const SilhouettePixels& pixels, bool markBackground = false);
 
   void releaseGraphicsResources();
 

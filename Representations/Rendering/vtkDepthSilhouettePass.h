@@ -58,7 +58,9 @@ class vtkProp;
 
 namespace po
 {
+struct OwnFrames;
 struct SilhouetteImage;
+struct SilhouetteOffer;
 struct SilhouetteSurroundings;
 }
 
@@ -127,6 +129,8 @@ private:
   std::string RenderAlone(const vtkRenderState* state, bool lines);
   std::string RenderShared(const vtkRenderState* state, bool lines);
   bool FindTogether(const vtkRenderState* state, bool lines, std::string& error);
+  bool FindInFrames(
+    const po::OwnFrames& own, const po::SilhouetteOffer& offer, bool whole, std::string& error);
   std::string DrawAside(const vtkRenderState* state, const std::vector<vtkProp*>& props,
     int samples, int margin, const std::function<std::string(const vtkRenderState*)>& use);
   std::string Prepare(const vtkRenderState* state);

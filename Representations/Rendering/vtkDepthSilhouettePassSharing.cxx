@@ -32,26 +32,30 @@ bool vtkDepthSilhouettePass::IsShared()
 std::string vtkDepthSilhouettePass::RenderShared(const vtkRenderState* state, bool lines)
 {
   Internals& self = *this->Internal;
+  const bool tile = po::isTile(state->GetRenderer());
   std::string error;
-  bool found = po::isTile(state->GetRenderer()) && this->FindTogether(state, lines, error);
+  bool found = tile && this->FindTogether(state, lines, error);
   this->RenderDelegate(state);
-  if (!po::isTile(state->GetRenderer()))
+  if (!tile)
   {
     found = this->FindTogether(state, lines, error);
   }
-  const bool isFirst = self.Controller->GetLocalProcessId() == 0;
+  if (!lines || !error.empty() || self.Controller->GetLocalProcessId() != 0)
+  {
+    return error;
+  }
   if (found)
   {
     const po::PlacedLines& shared = self.Shared.lines();
     const float* depth = self.Actors.empty() ? nullptr : shared.windowDepth.data();
-    return isFirst ? this->DrawLines(state, shared.image, { nullptr, nullptr, depth }) : "";
+    return this->DrawLines(state, shared.image, { nullptr, nullptr, depth });
   }
-  if (lines && isFirst && error.empty() && self.Actors.empty())
+  if (self.Actors.empty())
   {
     error = this->FindInZBuffer(state, 1, 0);
     return error.empty() ? this->DrawLines(state, self.Lines, {}) : error;
   }
-  return error;
+  return "";
 }
 
 /// Finds the lines of ray-traced spheres of all processes, if all can take part; else returns
@@ -60,37 +64,27 @@ bool vtkDepthSilhouettePass::FindTogether(
   const vtkRenderState* state, bool lines, std::string& error)
 {
   Internals& self = *this->Internal;
-  const bool tile = po::isTile(state->GetRenderer());
+  vtkRenderer* renderer = state->GetRenderer();
+  const bool tile = po::isTile(renderer);
   const po::SilhouetteViewport viewport = po::viewportOf(state);
   self.Margin = tile ? po::tileMarginOf(po::silhouetteParametersOf(*this)) : 0;
   const int width = viewport.width + 2 * self.Margin, height = viewport.height + 2 * self.Margin;
-  const std::vector<vtkProp*> props = self.Actors.empty()
-    ? po::deepPropsOf(state)
-    : std::vector<vtkProp*>(self.Actors.begin(), self.Actors.end());
-  const po::ControllerGroup group(self.Controller);
+  std::vector<vtkProp*> props = po::deepPropsOf(state);
+  if (!self.Actors.empty())
+  {
+    props.assign(self.Actors.begin(), self.Actors.end());
+  }
+  const bool canShare = lines && po::hasOnlySpheres(props);
   bool found = false;
   const auto find = [&](const vtkRenderState*)
   {
-    const po::OwnFrames own = po::framesOf(props, state->GetRenderer(), width, height);
-    const bool canShare = lines && own.complete && po::hasOnlySpheres(props);
-    const auto scale =
-      po::agreedScale({ canShare, width, height,
-                        po::scaleOf(po::visibleActorsOf(props)).value_or(po::SilhouetteScale{}) },
-        group);
-    if (scale)
-    {
-      const po::SilhouetteRule rule =
-        po::resolve(po::silhouetteParametersOf(*this), self.scale(*scale, !tile));
-      error = po::findTogether(own, rule, group, 0, self.Shared);
-      this->SharedBytes = static_cast<vtkIdType>(self.Shared.bytes().all());
-      found = error.empty();
-    }
-    return std::string();
+    const po::OwnFrames own = po::framesOf(props, renderer, width, height);
+    found = this->FindInFrames(
+      own, { canShare && own.complete, width, height, po::scaleOf(props) }, !tile, error);
+    return error;
   };
   // A process whose part is out of sight may not have been asked to draw it.
-  const bool draws = lines && po::hasOnlySpheres(props) &&
-    (tile || !po::framesOf(props, state->GetRenderer(), width, height).complete);
-  if (draws)
+  if (canShare && (tile || !po::framesOf(props, renderer, width, height).complete))
   {
     this->DrawAside(state, props, 1, self.Margin, find);
   }
@@ -99,4 +93,22 @@ bool vtkDepthSilhouettePass::FindTogether(
     find(state);
   }
   return found;
+}
+
+/// @param whole is it all of a picture, not a tile?
+bool vtkDepthSilhouettePass::FindInFrames(
+  const po::OwnFrames& own, const po::SilhouetteOffer& offer, bool whole, std::string& error)
+{
+  Internals& self = *this->Internal;
+  const po::ControllerGroup group(self.Controller);
+  const auto scale = po::agreedScale(offer, group);
+  if (!scale)
+  {
+    return false;
+  }
+  const po::SilhouetteRule rule =
+    po::resolve(po::silhouetteParametersOf(*this), self.scale(*scale, whole));
+  error = po::findTogether(own, rule, group, 0, !self.Actors.empty(), self.Shared);
+  this->SharedBytes = static_cast<vtkIdType>(self.Shared.bytes().all());
+  return error.empty();
 }

@@ -9,6 +9,7 @@ in vec2 texCoord; // of the viewport: its pixels' centres are the texels' centre
 
 uniform sampler2D colors;
 uniform sampler2D depths;
+uniform float depthOfAll; // in place of that of the texture; 0: none
 
 void main()
 {
@@ -17,6 +18,6 @@ void main()
   {
     discard;
   }
-  gl_FragDepth = depth;
+  gl_FragDepth = depthOfAll > 0.0 ? depthOfAll : depth;
   gl_FragData[0] = texture(colors, texCoord);
 }

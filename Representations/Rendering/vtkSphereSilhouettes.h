@@ -4,9 +4,9 @@
  * @brief Prop that draws the silhouettes of actors of ray-traced spheres, in any renderer.
  *
  * Lines are found in the traced frames of vtkRayTracedSphereMapper, so that nothing is traced or
- * read back for them, and drawn after all surfaces, hidden by what is nearer than the spheres in
- * front of them. Other actors have no lines and move none. No render pass is needed, so that
- * whatever else draws or processes the picture goes on as without this prop.
+ * read back for them, and drawn as an overlay, after all else, hidden by what is nearer than the
+ * spheres in front of them. Other actors have no lines and move none. No render pass is needed, so
+ * that whatever else draws or processes the picture goes on as without this prop.
  *
  * Add it to the renderer of the actors. The parameters are those of vtkDepthSilhouettePass; the
  * automatic threshold is derived from the particles of these actors alone.
@@ -25,6 +25,7 @@
 #include <string>
 
 class vtkActor;
+class vtkMultiProcessController;
 class vtkRenderer;
 
 namespace po
@@ -52,8 +53,26 @@ public:
   void RemoveAllActors();
   ///@}
 
+  ///@{
+  /// Controller: the processes that draw parts of the spheres each, in pictures that are composited
+  /// afterwards. Lines are those of one process that has all spheres; there are none while frames
+  /// are coarser than the picture to be in time. All processes must draw each picture, those
+  /// without spheres too. Default: none, the process is alone.
+  /// Renderer: that has this prop. While it renders, the prop has bounds that reach far beyond
+  /// everything, so that no process is left out because its part cannot be seen. Default: none.
+  /// OrderedCompositing: pictures are put one over the other, not composited by depth. Default:
+  /// off.
+  void SetController(vtkMultiProcessController* controller);
+  vtkMultiProcessController* GetController();
+  void SetRenderer(vtkRenderer* renderer);
+  vtkSetMacro(OrderedCompositing, bool);
+  vtkGetMacro(OrderedCompositing, bool);
+  vtkBooleanMacro(OrderedCompositing, bool);
+  ///@}
+
+  double* GetBounds() override;
   vtkTypeBool HasOpaqueGeometry() override { return 0; }
-  int RenderVolumetricGeometry(vtkViewport* viewport) override;
+  int RenderOverlay(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
 protected:
@@ -64,8 +83,19 @@ private:
   vtkSphereSilhouettes(const vtkSphereSilhouettes&) = delete;
   void operator=(const vtkSphereSilhouettes&) = delete;
 
-  bool Find(const po::SilhouetteViewport& place);
-  std::string FindAround(vtkRenderer* renderer, const po::SilhouetteViewport& tile, int margin);
+  void BeginPicture();
+  void EndPicture();
+  bool IsShared();
+  bool CanDraw(vtkRenderer* renderer);
+  bool Find(vtkRenderer* renderer, const po::SilhouetteViewport& place);
+  bool FindOwn(const po::SilhouetteViewport& place);
+  bool FindTogether(vtkRenderer* renderer, const po::SilhouetteViewport& place);
+  bool FindAround(
+    vtkRenderer* renderer, const po::SilhouetteViewport& tile, int margin, std::string& error);
+
+  bool OrderedCompositing = false;
+  bool IsRendering = false;
+  double Bounds[6] = { 0, 0, 0, 0, 0, 0 };
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

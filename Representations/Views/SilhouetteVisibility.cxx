@@ -3,22 +3,26 @@
 
 #include "vtkActor.h"
 #include "vtkMultiProcessController.h"
+#include "vtkPVRenderView.h"
+#include "vtkRenderer.h"
 #include "vtkSphereSilhouettes.h"
 
 namespace po
 {
-std::string updateVisibility(vtkSphereSilhouettes& silhouettes, vtkActor& actor)
+std::string updateVisibility(
+  vtkSphereSilhouettes& silhouettes, vtkActor& actor, vtkPVRenderView* view)
 {
-  std::string warning;
   vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
   const bool alone = !processes || processes->GetNumberOfProcesses() == 1;
-  if (!alone && silhouettes.GetLineVisibility() && silhouettes.GetVisibility() &&
-    processes->GetLocalProcessId() == 0)
-  {
-    warning = "Several processes draw these spheres, and none knows all depths before the "
-              "picture is composited: use Render View (Silhouettes) for lines.";
-  }
-  silhouettes.SetVisibility(alone && actor.GetVisibility());
-  return warning;
+  const bool wall = view && (view->InTileDisplayMode() || view->InCaveDisplayMode());
+  silhouettes.SetController(alone ? nullptr : processes);
+  silhouettes.SetRenderer(alone || !view ? nullptr : view->GetRenderer());
+  silhouettes.SetOrderedCompositing(!alone && view && view->GetUseOrderedCompositing());
+  silhouettes.SetVisibility((alone || !wall) && actor.GetVisibility());
+  const bool isMissing = !alone && wall && silhouettes.GetLineVisibility() && actor.GetVisibility();
+  return isMissing && processes->GetLocalProcessId() == 0
+    ? "On a wall of displays that several processes draw these spheres have no lines: none of them "
+      "knows all depths."
+    : "";
 }
 }

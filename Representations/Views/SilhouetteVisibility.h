@@ -5,14 +5,17 @@
 #include <string>
 
 class vtkActor;
+class vtkPVRenderView;
 class vtkSphereSilhouettes;
 
 namespace po
 {
-/// Shows the lines of an actor as long as it is visible, but not where several processes draw it:
-/// none of them knows all depths.
+/// Shows the lines of an actor as long as it is visible. Where several processes draw it, they find
+/// its lines together, but not on a wall of displays.
+/// @param view that shows the actor, or null
 /// @return a warning, on the first process, if lines are asked for that cannot be shown
-[[nodiscard]] std::string updateVisibility(vtkSphereSilhouettes& silhouettes, vtkActor& actor);
+[[nodiscard]] std::string updateVisibility(
+  vtkSphereSilhouettes& silhouettes, vtkActor& actor, vtkPVRenderView* view);
 }
 
 #endif

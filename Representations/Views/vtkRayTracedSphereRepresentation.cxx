@@ -61,6 +61,7 @@ bool vtkRayTracedSphereRepresentation::RemoveFromView(vtkView* view)
   this->Internal->Refinement.end();
   this->Internal->Sight.end();
   renderView->GetRenderer()->RemoveViewProp(this->Silhouettes);
+  this->Silhouettes->SetRenderer(nullptr);
   renderView->UnRegisterPropForHardwareSelection(this, this->Actor);
   this->ReleaseMemory();
   return this->Superclass::RemoveFromView(view);
@@ -153,7 +154,7 @@ void vtkRayTracedSphereRepresentation::PrepareFrame(vtkInformation* inInfo)
     po::crop(*this->Mapper, this->Internal->Crop.use());
   }
   this->Internal->Refinement.prepare(vtkPVRenderView::SafeDownCast(this->GetView()));
-  warning = po::updateVisibility(*this->Silhouettes, *this->Actor);
+  warning = po::updateVisibility(*this->Silhouettes, *this->Actor, this->Internal->View);
   if (!warning.empty())
   {
     vtkWarningMacro(<< warning);

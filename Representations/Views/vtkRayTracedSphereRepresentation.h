@@ -131,8 +131,8 @@ public:
 
   ///@{
   /// Lines where the depth jumps, in whatever render view this is shown; see vtkSphereSilhouettes.
-  /// Default: not visible. Only where one process draws all spheres: with several, a view with
-  /// silhouettes finds lines after compositing.
+  /// Default: not visible. Where several processes draw the spheres they find the lines together,
+  /// but not on a wall of displays.
   vtkForwardSilhouettesMacro(Silhouettes);
 
   /// What is drawn in the view.

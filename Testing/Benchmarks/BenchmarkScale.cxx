@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Time and memory of one execution of the filter, from points to the baked data set.
 ///
-///   BenchmarkScale FAMILY PARTICLES METHOD [MAXIMUM_DISTANCE] [CACHE_DIRECTORY]
+///   BenchmarkScale [--out-of-core] FAMILY PARTICLES METHOD [MAXIMUM_DISTANCE] [CACHE_DIRECTORY]
 ///
 /// METHOD is that of vtkSphereAmbientOcclusion::MethodType. Prints one row of a table:
 /// the seconds of the bake (CPU and wall), the peak of memory above the input in MB, and what
@@ -15,6 +15,7 @@
 #include "SyntheticSpheres.h"
 
 #include "vtkDataArray.h"
+#include "vtkErrorCode.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
@@ -94,6 +95,7 @@ double outputMegabytes(vtkPolyData& data)
   return (table + 8.0 * static_cast<double>(data.GetNumberOfPoints())) / Megabyte;
 }
 
+/// Ends the program where the filter has reported an error.
 void execute(vtkSphereAmbientOcclusion* filter, const char* label, double scene)
 {
   const double before = resident();
@@ -102,6 +104,10 @@ void execute(vtkSphereAmbientOcclusion* filter, const char* label, double scene)
   const auto wall = std::chrono::steady_clock::now();
   filter->Modified();
   filter->Update();
+  if (filter->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    std::exit(1);
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - wall;
   const double cpuSeconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   const double peak = po::statusMegabytes("VmHWM") - before;
@@ -116,10 +122,17 @@ void execute(vtkSphereAmbientOcclusion* filter, const char* label, double scene)
 
 int main(int argc, char** argv)
 {
+  const bool outOfCore = argc > 1 && std::string(argv[1]) == "--out-of-core";
+  if (outOfCore)
+  {
+    --argc;
+    ++argv;
+  }
   if (argc < 4 || !po::syntheticFamilyFromName(argv[1]))
   {
-    std::fprintf(
-      stderr, "usage: %s FAMILY PARTICLES METHOD [MAXIMUM_DISTANCE] [CACHE_DIRECTORY]\n", argv[0]);
+    std::fprintf(stderr,
+      "usage: BenchmarkScale [--out-of-core] FAMILY PARTICLES METHOD [MAXIMUM_DISTANCE] "
+      "[CACHE_DIRECTORY]\n");
     return 1;
   }
   const auto data = makeInput(argv[1], std::strtoull(argv[2], nullptr, 10));
@@ -127,6 +140,7 @@ int main(int argc, char** argv)
   vtkNew<vtkSphereAmbientOcclusion> filter;
   filter->SetInputData(data);
   filter->SetMethod(std::atoi(argv[3]));
+  filter->SetOutOfCore(outOfCore);
   filter->SetMaximumDistance(argc > 4 ? std::atof(argv[4]) : 0);
   if (argc > 5)
   {

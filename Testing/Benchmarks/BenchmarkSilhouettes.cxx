@@ -8,12 +8,21 @@
 /// compared with:
 /// - the default display: light from the camera and baked occlusion, no shadows;
 /// - the cheapest, so that the share is the highest: direct light alone.
+/// With antialiased lines also with
+/// - the default display with hard shadows, and
+/// - the default display with four rays a pixel.
 /// Wall-clock times show how lines scale over threads. Without particles the frame is empty.
+///
+/// Shared/FAMILY/PARTICLES/PROCESSES/SLABS: the particles are divided over processes, played by
+/// threads, by turns or into slabs. CPU time of all of them together, with what one process takes
+/// alone in the same iteration, and bytes that are handed from process to process.
 
+#include "SharedSilhouettes.h"
 #include "SilhouettePixels.h"
 #include "SilhouetteRims.h"
 #include "SphereRenderer.h"
 #include "SyntheticSpheres.h"
+#include "ThreadGroup.h"
 #include "TracedDepth.h"
 
 #include <benchmark/benchmark.h>
@@ -23,6 +32,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <thread>
@@ -156,16 +166,20 @@ void lines(benchmark::State& state, const std::string& family)
   const SilhouetteRule rule = resolve(parameters, { cloud.scale, 2 * extent });
 
   const Textures textures(cloud.spheres.size());
-  Style direct, display;
+  Style direct, display, shadowed;
   direct.lights = display.lights = { Light() };
   direct.material.mode = ShadingMode::DirectLight;
   display.textures = textures.get();
+  shadowed = display;
+  shadowed.lights.front().direction = Vec3d{ 0.6, -0.64, -0.48 };
+  shadowed.shadows = true;
+  const bool isSmooth = parameters.samples > 1;
   SphereRenderer renderer;
   renderer.setCloud(std::move(cloud));
   SilhouetteImage image;
   SilhouettePixels pixels;
   SilhouetteCounters counters;
-  Spent tracing, shadingDirect, shadingDisplay, search, coloring;
+  Spent tracing, shadingDirect, shadingDisplay, search, coloring, shadows, samples;
   const auto iterate = [&]
   {
     camera.worldToEye[3] += 1e-9 * extent; // a new view each time: nothing is kept
@@ -185,9 +199,14 @@ void lines(benchmark::State& state, const std::string& family)
         const auto* rgba = rule.samples > 1 ? renderer.rgba().data() : nullptr;
         colorSilhouettes(image, {}, { rgba, frame.windowDepth.data() }, pixels);
       });
+    if (isSmooth)
+    {
+      samples.measure([&] { renderer.refine(4); });
+      shadows.measure([&] { renderer.shade(shadowed); });
+    }
   };
   iterate(); // builds the scene and makes room
-  tracing = shadingDirect = shadingDisplay = search = coloring = {};
+  tracing = shadingDirect = shadingDisplay = search = coloring = shadows = samples = {};
   for (auto _ : state)
   {
     iterate();
@@ -201,15 +220,120 @@ void lines(benchmark::State& state, const std::string& family)
   state.counters["lines_cpu"] = search.cpu();
   state.counters["coloring_cpu"] = coloring.cpu();
   state.counters["display_%"] = 100 * search.cpu() / display_cpu;
+  state.counters["colored_%"] = 100 * (search.cpu() + coloring.cpu()) / display_cpu;
   state.counters["cheapest_%"] = 100 * search.cpu() / cheapest_cpu;
+  if (isSmooth)
+  {
+    state.counters["shadowed_%"] = 100 * search.cpu() / (tracing.cpu() + shadows.cpu());
+    state.counters["smooth_%"] = 100 * search.cpu() / (display_cpu + samples.cpu());
+  }
   state.counters["lines_ms"] = search.wall();
   state.counters["covered_%"] = 100.0 * static_cast<double>(covered) / (Width * Height);
   state.counters["skipped_%"] =
     100.0 * static_cast<double>(counters.tilesSkipped) / static_cast<double>(counters.tiles);
 }
 
+/// The process of each sphere: by turns, or slabs along x with as many spheres each.
+std::vector<int> divide(const SphereCloud& cloud, int processes, bool slabs)
+{
+  std::vector<std::size_t> order(cloud.spheres.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (slabs)
+  {
+    std::sort(order.begin(), order.end(),
+      [&](std::size_t a, std::size_t b) { return cloud.spheres[a].x < cloud.spheres[b].x; });
+  }
+  std::vector<int> owner(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    const auto size = static_cast<std::size_t>(processes);
+    owner[order[i]] = static_cast<int>(slabs ? i * size / order.size() : i % size);
+  }
+  return owner;
+}
+
+/// What a process has traced of its own spheres.
+std::unique_ptr<SphereRenderer> traceOwn(
+  const SphereCloud& cloud, const std::vector<int>& owner, int process, const Camera& camera)
+{
+  auto renderer = std::make_unique<SphereRenderer>();
+  renderer->setCloud(cloud);
+  std::vector<std::uint8_t> hidden(owner.size());
+  std::transform(owner.begin(), owner.end(), hidden.begin(),
+    [process](int its) { return its == process ? std::uint8_t(0) : std::uint8_t(1); });
+  renderer->setHidden(hidden);
+  benchmark::DoNotOptimize(renderer->trace(camera, Identity));
+  return renderer;
+}
+
+void shared(benchmark::State& state, const std::string& family)
+{
+  const auto processes = static_cast<int>(state.range(1));
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 2);
+  const SphereCloud cloud = makeCloud(family, static_cast<std::size_t>(state.range(0)));
+  const double extent = extentOf(cloud);
+  const Camera camera = viewOf(cloud, extent);
+  const SilhouetteRule rule = resolve({}, { cloud.scale, 2 * extent });
+  const std::vector<int> owner = divide(cloud, processes, state.range(2) != 0);
+  const auto whole = traceOwn(cloud, std::vector<int>(owner.size(), 0), 0, camera);
+  std::vector<std::unique_ptr<SphereRenderer>> parts;
+  for (int process = 0; process < processes; ++process)
+  {
+    parts.push_back(traceOwn(cloud, owner, process, camera));
+  }
+  const auto layerOf = [](const SphereRenderer& renderer) {
+    return TracedLayer{ renderer.frame(), renderer.rays(), renderer.cloud().spheres };
+  };
+  std::vector<SharedSilhouettes> silhouettes(parts.size());
+  SilhouetteImage image;
+  Spent alone, together;
+  for (auto _ : state)
+  {
+    alone.measure(
+      [&] {
+        findTracedSilhouettes(TracedDepth({ layerOf(*whole) }), rule, image, { true, true });
+      });
+    together.measure(
+      [&]
+      {
+        inParallel(processes,
+          [&](const ProcessGroup& group)
+          {
+            const auto at = static_cast<std::size_t>(group.rank());
+            silhouettes[at].find({ layerOf(*parts[at]) }, camera, rule, group, 0, false);
+          });
+      });
+  }
+  SharedBytes bytes;
+  for (const SharedSilhouettes& one : silhouettes)
+  {
+    bytes.ranges += one.bytes().ranges;
+    bytes.depths += one.bytes().depths;
+    bytes.lines += one.bytes().lines;
+  }
+  state.counters["alone_cpu"] = alone.cpu();
+  state.counters["together_cpu"] = together.cpu();
+  state.counters["ranges_kB"] = 1e-3 * static_cast<double>(bytes.ranges);
+  state.counters["depths_kB"] = 1e-3 * static_cast<double>(bytes.depths);
+  state.counters["lines_kB"] = 1e-3 * static_cast<double>(bytes.lines);
+}
+
 void addBenchmarks()
 {
+  for (const std::string family : { "pack", "overlap", "shell", "foam", "gas" })
+  {
+    for (const int processes : { 2, 4 })
+    {
+      for (const int slabs : { 0, 1 })
+      {
+        benchmark::RegisterBenchmark(("Shared/" + family).c_str(), shared, family)
+          ->ArgNames({ "particles", "processes", "slabs" })
+          ->Args({ 200000, processes, slabs })
+          ->Iterations(9)
+          ->Unit(benchmark::kMillisecond);
+      }
+    }
+  }
   for (const std::string family : { "pack", "overlap", "gas", "shell", "foam" })
   {
     for (const int samples : { 1, 4 })
@@ -217,6 +341,7 @@ void addBenchmarks()
       benchmark::RegisterBenchmark(("Lines/" + family).c_str(), lines, family)
         ->ArgNames({ "particles", "samples", "threads" })
         ->Args({ 200000, samples, 2 })
+        ->Args({ 955000, samples, 2 })
         ->Iterations(15)
         ->Unit(benchmark::kMillisecond);
     }

@@ -148,6 +148,29 @@ TEST(SphereSilhouettes, DarkenTheColourOfTheSpheres)
   EXPECT_GT(lines, 500);
 }
 
+/// The same lines as on opaque spheres: of the fronts that are seen first.
+TEST(SphereSilhouettes, AreShownOnTranslucentSpheresToo)
+{
+  LineScene scene;
+  scene.silhouettes->SetSamples(1);
+  const Picture opaque = grab(scene.window);
+  scene.actor->GetProperty()->SetOpacity(0.4);
+  const Picture translucent = grab(scene.window);
+  const auto isLine = [](const Picture& picture, int x, int y) {
+    return largestDifference(picture.at(x, y), { 255, 0, 255 }) < 2;
+  };
+  int lines = 0;
+  for (int y = 0; y < opaque.height(); ++y)
+  {
+    for (int x = 0; x < opaque.width(); ++x)
+    {
+      EXPECT_EQ(isLine(translucent, x, y), isLine(opaque, x, y)) << x << ", " << y;
+      lines += isLine(translucent, x, y);
+    }
+  }
+  EXPECT_GT(lines, 500);
+}
+
 /// Eye-dome lighting darkens what the prop drew, lines included; those of a pass around it stay.
 TEST(SphereSilhouettes, GoWithEyeDomeLighting)
 {

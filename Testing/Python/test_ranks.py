@@ -46,6 +46,15 @@ display.ShadingMode = "Ambient Occlusion"
 ColorBy(display, ("POINTS", "charge"))
 ResetCamera(view)
 SaveScreenshot(r"{name}.png", view, ImageResolution=[300, 200])
+plain = CreateRenderView(ViewSize=[300, 200], OrientationAxesVisibility=0, UseFXAA=0)
+if port:
+    plain.RemoteRenderThreshold = {threshold}
+lined = Show(baked, plain)
+lined.SetRepresentationType("Ray-Traced Spheres")
+lined.SilhouetteVisibility = 1
+ColorBy(lined, ("POINTS", "charge"))
+ResetCamera(plain)
+SaveScreenshot(r"{name}-plain.png", plain, ImageResolution=[300, 200])
 baked.UpdatePropertyInformation()
 with open(r"{name}.json", "w") as file:
     json.dump({{key: baked.GetPropertyValue(key) for key in {counters}}}, file)
@@ -86,7 +95,8 @@ def main():
             with servers.running([*two, pvserver]) as port:
                 others.append(run_session([pvpython], folder, name, port, threshold))
         for other in others:
-            images.compare_files(other + ".png", reference + ".png", rms=RMS, outliers=OUTLIERS)
+            for suffix in (".png", "-plain.png"):
+                images.compare_files(other + suffix, reference + suffix, rms=RMS, outliers=OUTLIERS)
             assert numbers(other) == numbers(reference), (other, numbers(other), numbers(reference))
 
 
