@@ -52,6 +52,7 @@ struct Workload
         [this](std::size_t i) { return static_cast<double>(spheres.radii[i]); }))
     , scene(cloud)
   {
+    scene.prepareRays();
     for (std::size_t i = 0; i < BakedParticles; ++i)
     {
       baked.push_back(static_cast<unsigned>(i * Particles / BakedParticles));

@@ -172,7 +172,7 @@ std::set<std::string> phasesOf(int method)
 
 TEST(BakeProgress, SaysWhatIsBeingDone)
 {
-  const std::pair<int, const char*> methods[] = { { Filter::Sweep, "Sweep along 2176 directions" },
+  const std::pair<int, const char*> methods[] = { { Filter::Sweep, "Sweep along 1696 directions" },
     { Filter::Embree, "Rays from 1000 particles" }, { Filter::Reference, "4.1 million rays" } };
   for (const auto& [method, phase] : methods)
   {
