@@ -31,8 +31,8 @@ struct AxisWeights
 /// at a time. The sums have the same bits as in memory.
 ///
 /// A mask takes 2 bytes for each group of texels of which some that face the direction are hidden,
-/// and 6 more: at 16 x 16 texels a particle that is seen takes 1 to 2.5 KiB of the file in 144
-/// directions.
+/// and 6 more: at 16 x 16 texels and 144 directions 1.5 kB a particle in a gas, 0.1 where most are
+/// buried.
 ///
 /// Threads may call keep() at once. Throws what ScratchFile throws.
 class LoggedVisibility

@@ -168,7 +168,7 @@ SphereSet joined(const SphereCloud& cloud, const Occluders& occluders)
       fullCenters(occluders.spheres, occluders.centers)));
 }
 
-/// Two hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
+/// Hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
 constexpr double BytesPerSphere = 300;
 }
 

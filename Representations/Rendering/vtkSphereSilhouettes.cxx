@@ -104,7 +104,8 @@ bool vtkSphereSilhouettes::CanDraw(vtkRenderer* renderer)
   return fault.empty() && !renderer->GetSelector();
 }
 
-int vtkSphereSilhouettes::RenderVolumetricGeometry(vtkViewport* viewport)
+/// Not as volumetric geometry, which may be peeled layer by layer with what is translucent.
+int vtkSphereSilhouettes::RenderOverlay(vtkViewport* viewport)
 {
   auto* renderer = vtkRenderer::SafeDownCast(viewport);
   auto* window =

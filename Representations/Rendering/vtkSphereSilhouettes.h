@@ -4,9 +4,9 @@
  * @brief Prop that draws the silhouettes of actors of ray-traced spheres, in any renderer.
  *
  * Lines are found in the traced frames of vtkRayTracedSphereMapper, so that nothing is traced or
- * read back for them, and drawn after all surfaces, hidden by what is nearer than the spheres in
- * front of them. Other actors have no lines and move none. No render pass is needed, so that
- * whatever else draws or processes the picture goes on as without this prop.
+ * read back for them, and drawn as an overlay, after all else, hidden by what is nearer than the
+ * spheres in front of them. Other actors have no lines and move none. No render pass is needed, so
+ * that whatever else draws or processes the picture goes on as without this prop.
  *
  * Add it to the renderer of the actors. The parameters are those of vtkDepthSilhouettePass; the
  * automatic threshold is derived from the particles of these actors alone.
@@ -72,7 +72,7 @@ public:
 
   double* GetBounds() override;
   vtkTypeBool HasOpaqueGeometry() override { return 0; }
-  int RenderVolumetricGeometry(vtkViewport* viewport) override;
+  int RenderOverlay(vtkViewport* viewport) override;
   void ReleaseGraphicsResources(vtkWindow* window) override;
 
 protected:

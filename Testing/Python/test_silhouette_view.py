@@ -208,6 +208,16 @@ class LinesOfARepresentation(unittest.TestCase):
         self.assertIsNotNone(self.display.SMProxy.GetRepresentedDataInformation())
         simple.ClearSelection()
 
+    def test_beside_translucent_things(self):
+        self.display.SilhouetteVisibility = 1
+        alone = lines(picture(self.view))
+        self.assertGreater(alone.sum(), 500)
+        plane = simple.Plane(Origin=(-40, -40, -20), Point1=(40, -40, -20), Point2=(-40, 40, -20))
+        shown = simple.Show(plane, self.view)
+        shown.Opacity = 0.5
+        numpy.testing.assert_array_equal(lines(picture(self.view)), alone)
+        simple.Delete(plane)
+
     def test_large_screenshot(self):
         self.display.SilhouetteVisibility = 1
         large = lines(picture(self.view, size=(600, 480)))
