@@ -63,6 +63,8 @@ public:
 
 private:
   static constexpr std::size_t MostLanes = 16;
+  /// Without AVX-512 it takes longer to leave out pixels than to merge them with strength 0.
+  static constexpr bool CompressesFast = HWY_TARGET <= HWY_AVX3;
   /// A place behind the last pixel.
   static constexpr std::size_t Unused = TileLines::indexOf(0, DepthTileSize) - 1;
   // In lists of pixels, which are i + 32 j.
@@ -107,6 +109,16 @@ private:
 
   void listRow(int j, std::uint32_t pixels, std::uint32_t edges)
   {
+    if constexpr (!CompressesFast)
+    {
+      for (; pixels != 0; pixels &= pixels - 1)
+      {
+        const auto i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(pixels));
+        const bool isEdge = (edges >> i & 1U) != 0;
+        work_.pixels[listed_++] = 32 * j + i + (isEdge ? EdgeBit : 0);
+      }
+      return;
+    }
     const IntegerTag integers;
     for (int i = 0; i < DepthTileSize; i += static_cast<int>(hn::Lanes(integers)))
     {
@@ -229,14 +241,25 @@ private:
   {
     const Tag d;
     const IntegerTag integers;
-    const auto whichIntegers = hn::RebindMask(integers, which);
-    hn::StoreU(hn::Compress(at, whichIntegers), integers, work_.at.data() + covered_);
-    hn::StoreU(hn::Compress(steps, whichIntegers), integers, work_.steps.data() + covered_);
-    hn::StoreU(hn::Compress(share.strength, which), d, work_.strength.data() + covered_);
-    hn::StoreU(hn::Compress(share.inside, which), d, work_.inside.data() + covered_);
+    const auto store = [&](auto tag, auto values, auto* to)
+    {
+      const auto kept = hn::RebindMask(tag, which);
+      if constexpr (CompressesFast)
+      {
+        hn::StoreU(hn::Compress(values, kept), tag, to + covered_);
+      }
+      else
+      {
+        hn::StoreU(hn::IfThenElseZero(kept, values), tag, to + covered_);
+      }
+    };
+    store(integers, at, work_.at.data());
+    store(integers, steps, work_.steps.data());
+    store(d, share.strength, work_.strength.data());
+    store(d, share.inside, work_.inside.data());
     hn::StoreU(number(static_cast<std::int32_t>(shown)), integers,
       reinterpret_cast<std::int32_t*>(work_.shown.data()) + covered_);
-    covered_ += hn::CountTrue(d, which);
+    covered_ += CompressesFast ? hn::CountTrue(d, which) : hn::Lanes(d);
   }
 
   /// Keeps what is stronger than what is there. Without branches, which nothing could predict.
