@@ -111,6 +111,24 @@ class Display(unittest.TestCase):
         simple.Render(self.view)
         self.assertEqual(frames(), before + 1)
 
+    def test_another_view_of_another_size_traces_nothing_here(self):
+        source = programmable(POLY_DATA)
+        display = self.show(source)
+        other = simple.CreateRenderView(ViewSize=[100, 80])
+        self.addCleanup(simple.Delete, other)
+        simple.Show(source, other).SetRepresentationType("Ray-Traced Spheres")
+        views = (self.view, other)
+        for view in views:
+            simple.Render(view)
+        before = self.counter(display, "NumberOfTracedFrames")
+        other.ViewSize = [160, 120]
+        for view in views:
+            simple.Render(view)
+        self.assertEqual(self.counter(display, "NumberOfTracedFrames"), before)
+        self.view.ViewSize = [self.view.ViewSize[0] + 10, self.view.ViewSize[1]]
+        simple.Render(self.view)
+        self.assertEqual(self.counter(display, "NumberOfTracedFrames"), before + 1)
+
     def test_blocks_of_collections_have_looks_of_their_own(self):
         parts = [programmable(POLY_DATA), simple.Transform(Input=programmable(POLY_DATA), Transform="Transform")]
         parts[1].Transform.Translate = [-5, 0, 0]
