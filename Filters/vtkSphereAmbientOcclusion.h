@@ -320,8 +320,8 @@ public:
   /**
    * What the storages VariableSize and Compressed may add to the RMS error of linear visibility,
    * which is the displayed value, 0 to 1 [0.01]. Textures may differ from what was baked, in RMS
-   * over the sphere, by sqrt(e^2 + 2 e n), with n half of the estimated error of the bake: noise of
-   * the bake need not be kept.
+   * over the sphere, by sqrt(e^2 + 2 e n), with n a third of the estimated error of the bake: noise
+   * of the bake need not be kept.
    */
   vtkSetMacro(StorageError, double);
   vtkGetMacro(StorageError, double);

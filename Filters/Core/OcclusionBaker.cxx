@@ -285,8 +285,7 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
   result.aborted = progress.aborted();
   if (!result.aborted)
   {
-    // Without a target error, estimates are up to three times too large: a third of one is safe.
-    collector.finish(result, estimator.estimatedError() / 3, scene.group);
+    collector.finish(result, SureShareOfError * estimator.estimatedError(), scene.group);
   }
   return result;
 }

@@ -21,6 +21,10 @@ struct BakeResult
   bool aborted = false; ///< the other members are then incomplete
 };
 
+/// The share of an estimator's estimatedError() that is surely noise: without a target error,
+/// estimates are up to three times too large.
+inline constexpr double SureShareOfError = 1.0 / 3;
+
 /// Upper bound of the memory that a bake of `particles` needs at once, in bytes.
 ///
 /// Equal textures are stored once, so that the real need is often much smaller.

@@ -86,7 +86,7 @@ Baked bake(const BakeScene& scene)
   baked.rowOf = std::move(result.rowOf);
   baked.mean = std::move(result.mean);
   baked.maximum = result.table.maximum;
-  baked.noise = sweep.report().estimatedError / 2; // see vtkSphereAmbientOcclusion
+  baked.noise = po::SureShareOfError * sweep.report().estimatedError;
   return baked;
 }
 
@@ -278,7 +278,7 @@ void print(const Scene& scene, Candidates which)
     std::cout << " |" << std::endl;
   }
   std::cout << "| " << scene.name << " | RMS error of the bake itself " << std::setprecision(4)
-            << scene.noise << ", half of its estimate " << scene.baked.noise << " | | | | | |"
+            << scene.noise << ", a third of its estimate " << scene.baked.noise << " | | | | | |"
             << std::endl;
 }
 }

@@ -4,6 +4,7 @@
 #include "BakeFilterTestSupport.h"
 #include "BakedTextures.h"
 #include "ExrTestSupport.h"
+#include "OcclusionBaker.h"
 #include "OcclusionParameters.h"
 #include "ParallelBakeTestSupport.h"
 
@@ -76,11 +77,11 @@ double lookupDifference(vtkPolyData* a, vtkPolyData* b)
   return std::sqrt(sum / (Directions * static_cast<double>(a->GetNumberOfPoints())));
 }
 
-/// With half of the noise that the bake reports.
+/// With the share of the noise that the bake is sure of.
 double allowed(Filter* filter)
 {
   const double e = filter->GetStorageError();
-  return std::sqrt(e * e + e * filter->GetEstimatedError());
+  return std::sqrt(e * e + 2 * e * po::SureShareOfError * filter->GetEstimatedError());
 }
 }
 
