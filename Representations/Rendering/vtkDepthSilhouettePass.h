@@ -96,6 +96,7 @@ public:
   vtkBooleanMacro(TileMargins, bool);
   ///@}
 
+  ///@{
   /// The processes whose pictures the delegate composites at the first of them, each with a part of
   /// the scene. All of them must render together. Default: none, the process is alone.
   ///
@@ -105,6 +106,7 @@ public:
   /// composited z-buffer; of chosen actors there are none then.
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
+  ///@}
 
   /// Bytes that this process has handed to others for the lines of the last picture.
   vtkGetMacro(SharedBytes, vtkIdType);
