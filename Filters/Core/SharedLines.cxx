@@ -64,6 +64,10 @@ LinePixel pixelOf(std::uint64_t word)
 /// Two floats a word.
 void append(const std::vector<float>& values, Words& words)
 {
+  if (values.empty())
+  {
+    return; // memcpy must have something to copy
+  }
   const std::size_t end = words.size();
   words.resize(end + (values.size() + 1) / 2);
   std::memcpy(words.data() + end, values.data(), values.size() * sizeof(float));
