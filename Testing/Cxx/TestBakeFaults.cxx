@@ -260,7 +260,7 @@ TEST_P(BakeFaults, AbortsLeaveTheInputAndTheNextBakeItsBits)
 {
   SmallBake bake(GetParam(), lattice(7));
   bake.filter->SetTextureResolution(GetParam() == Method::Sweep ? 32 : 16);
-  bake.filter->SetSamplesPerTexel(GetParam() == Method::Sweep ? 400 : 49);
+  bake.filter->SetSamplesPerTexel(GetParam() == Method::Reference ? 49 : 400);
   const std::string whole = bake.bits();
   std::mt19937 random(20261126);
   struct Stop
@@ -283,7 +283,8 @@ TEST_P(BakeFaults, AbortsLeaveTheInputAndTheNextBakeItsBits)
   int aborted = 0;
   for (int i = 0; i < 10; ++i)
   {
-    stop = { 2 + static_cast<int>(random() % 3) };
+    // The first report is always there; how many follow depends on the machine.
+    stop = { 1 + static_cast<int>(random() % 3) };
     bake.filter->Modified();
     EXPECT_EQ(errorOf(bake.filter), "");
     bake.filter->SetAbortExecute(0);
