@@ -205,8 +205,8 @@ TEST_P(BakeFaults, EveryCallOfEmbreeMayFail)
       }
     }
   }
-  // A device, scene, geometry and commit for the search for overlaps; of others than Sweep, for rays
-  // too.
+  // A device, scene, geometry and commit for the search for overlaps; of others than Sweep, for
+  // rays too.
   EXPECT_GE(failures, 3 * (GetParam() == Method::Sweep ? 4 : 8));
   EXPECT_TRUE(bake.bits() == whole);
 }
