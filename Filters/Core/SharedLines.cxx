@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SharedLines.h"
 
+#include "SharedWords.h"
 #include "SilhouetteTiles.h"
 
 #include <algorithm>
@@ -61,18 +62,6 @@ LinePixel pixelOf(std::uint64_t word)
   return pixel;
 }
 
-/// Two floats a word.
-void append(const std::vector<float>& values, Words& words)
-{
-  if (values.empty())
-  {
-    return; // memcpy must have something to copy
-  }
-  const std::size_t end = words.size();
-  words.resize(end + (values.size() + 1) / 2);
-  std::memcpy(words.data() + end, values.data(), values.size() * sizeof(float));
-}
-
 void appendTile(const SilhouetteImage& image, int tile, const SharedDepth& depth, bool placed,
   Words& words, std::vector<float>& depths)
 {
@@ -103,7 +92,7 @@ void appendTile(const SilhouetteImage& image, int tile, const SharedDepth& depth
     }
   }
   words[head] = static_cast<std::uint64_t>(tile) | std::uint64_t(words.size() - head - 1) << 32U;
-  append(depths, words);
+  appendValues(depths, words);
 }
 
 void resize(int width, int height, PlacedLines& lines)

@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SharedTiles.h"
 
+#include "SharedWords.h"
+
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace po
 {
 namespace
 {
 using Words = ProcessGroup::Words;
-
-constexpr std::size_t WordBytes = sizeof(std::uint64_t);
-
-std::size_t wordsFor(std::size_t bytes)
-{
-  return (bytes + WordBytes - 1) / WordBytes;
-}
-
-/// Values of a trivial type, and zeros up to the next whole word.
-template <typename Value>
-void append(const std::vector<Value>& values, Words& words)
-{
-  const std::size_t end = words.size(), bytes = values.size() * sizeof(Value);
-  words.resize(end + wordsFor(bytes));
-  if (bytes > 0)
-  {
-    std::memcpy(words.data() + end, values.data(), bytes);
-  }
-}
 
 /// What one tile shows.
 struct TileContent
@@ -190,14 +172,14 @@ void appendTiles(const TracedLayer& layer, const std::vector<int>& tiles, int pr
   {
     spheres.push_back(layer.spheres[sphere]);
   }
-  append(spheres, words);
+  appendValues(spheres, words);
   for (std::size_t i = 0; i < tiles.size(); ++i)
   {
     const TileContent& content = contents[i];
     words.push_back(static_cast<std::uint64_t>(tiles[i]) |
       std::uint64_t(content.spheres.size()) << 32U | std::uint64_t(content.runs.size()) << 48U);
-    append(content.spheres, words);
-    append(content.runs, words);
+    appendValues(content.spheres, words);
+    appendValues(content.runs, words);
   }
 }
 

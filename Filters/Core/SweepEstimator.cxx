@@ -211,8 +211,8 @@ void SweepEstimator::sweepOnce(const BakeScene& scene, const std::vector<unsigne
   const int directions = options_.directions > 0
     ? options_.directions
     : sweepDirectionsForSamples(settings.samplesPerTexel);
-  const auto records = options_.outOfCore ? ProgressiveSweep::Records::OutOfCore
-                                          : ProgressiveSweep::Records::InMemory;
+  const auto records =
+    options_.outOfCore ? ProgressiveSweep::Records::OutOfCore : ProgressiveSweep::Records::InMemory;
   ProgressiveSweep sweep(scene, particles, settings,
     { options_.skips, ProgressiveSweep::Watch::Some, records, options_.smooth });
   sweep.refine(directions, progress);

@@ -13,10 +13,10 @@
 /// `measure` prints one line of JSON. A method whose time grows with the particles that are asked
 /// for is measured on --measured of them, and its time scaled to all. --bake goes on to the table
 /// of stored textures, for methods that do all particles; --target allows only one set of vector
-/// instructions; --without switches off one of the SweepSkips, or smoothing; --values writes all values as raw
-/// floats, and --compare tells the RMS difference from such a file. `judge` writes the independent
-/// values by which errors are found. `targets` lists sets of vector instructions. The scenes and
-/// backgrounds are told in BenchmarkScenes.h.
+/// instructions; --without switches off one of the SweepSkips, or smoothing; --values writes all
+/// values as raw floats, and --compare tells the RMS difference from such a file. `judge` writes
+/// the independent values by which errors are found. `targets` lists sets of vector instructions.
+/// The scenes and backgrounds are told in BenchmarkScenes.h.
 
 #include "BenchmarkJudge.h"
 #include "BenchmarkScenes.h"
