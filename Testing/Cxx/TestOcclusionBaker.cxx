@@ -7,6 +7,7 @@
 #include "SweepEstimator.h"
 #include "TestScenes.h"
 #include "TexelMap.h"
+#include "WorkingThreads.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -294,10 +295,14 @@ TEST(OcclusionBaker, GivesTheSameBitsForAnyNumberOfThreads)
     EXPECT_EQ(result.counters.rays, results[0].counters.rays);
   }
   EXPECT_EQ(results[0].counters.threads, 1u);
-  if (std::thread::hardware_concurrency() > 1)
-  {
-    EXPECT_GT(results[1].counters.threads, 1u);
-  }
+}
+
+TEST(OcclusionBaker, UsesMoreThanOneThread)
+{
+  std::vector<po::Sphere> spheres = mixedScene();
+  addClosedShell(spheres, 20, 1, 200); // more particles than one hand-over takes
+  const po::BakeSettings settings;
+  EXPECT_TRUE(moreThanOneThreadTakesPart([&] { return bake(spheres, settings).counters.threads; }));
 }
 
 TEST(OcclusionBaker, TheSeedChangesTheNoiseAndNothingElse)
