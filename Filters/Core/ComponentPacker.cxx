@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace po
 {
@@ -30,57 +31,81 @@ double errorLeft(double square, const std::vector<float>& coefficients,
 }
 }
 
-ComponentPacker::ComponentPacker(int resolution, double maximum, double allowed,
-  const std::vector<float>& sample, double population)
+ComponentPacker::ComponentPacker(
+  int resolution, double maximum, double allowed, const TextureSample& sample)
   : TexturePacker(resolution, maximum)
   , allowed_(allowed)
 {
   words_[OneValue] = PackedFormat::sizeWords(1);
   std::copy(PackedFormat::ClassWords.begin(), PackedFormat::ClassWords.end(), words_.begin() + 1);
   words_[AllTexels] = PackedFormat::sizeWords(resolution);
-  if (!sample.empty())
+  if (!sample.values.empty())
   {
-    choose(sample, population);
+    choose(sample);
   }
 }
 
-ComponentPacker::Projected ComponentPacker::project(
-  const TextureProjection& projection, const float* texture) const
+ComponentPacker::Prepared ComponentPacker::prepare(
+  const Basis& basis, const WeighedTexture& texture) const
 {
-  Projected projected;
-  projected.coefficients.resize(projection.variances().size());
-  projected.square = projection.project(texture, projected.coefficients.data());
-  projected.oneValue = packSize(texture, 0).squareError;
-  projected.allTexels = packSize(texture, sizes() - 1).squareError;
-  return projected;
+  std::vector<float> weights;
+  const Area area = areaOf(texture, weights);
+  Prepared prepared;
+  prepared.area = area.sum;
+  prepared.oneValue = packSize(texture.values, area, 0).squareError;
+  prepared.allTexels = packSize(texture.values, area, sizes() - 1).squareError;
+  if (texture.weights)
+  {
+    prepared.part = basis.fit.prepare(texture.values, area.weights);
+    return prepared;
+  }
+  prepared.coefficients.resize(basis.projection.variances().size());
+  prepared.square = basis.projection.project(texture.values, prepared.coefficients.data());
+  return prepared;
 }
 
-ComponentPacker::Errors ComponentPacker::errorsOf(const Projected& texture,
-  const std::vector<double>& variances, const std::vector<std::vector<std::uint8_t>>& classBits)
+double ComponentPacker::squareLeft(
+  const Basis& basis, const Prepared& texture, const ClassBits& classBits, std::size_t way)
+{
+  if (way == OneValue || way == AllTexels)
+  {
+    return way == OneValue ? texture.oneValue : texture.allTexels;
+  }
+  const std::vector<std::uint8_t>& bits = classBits[way - 1];
+  return texture.part
+    ? VisibleFit::squareLeft(*texture.part, VisibleFit::fit(*texture.part, bits))
+    : errorLeft(texture.square, texture.coefficients, basis.projection.variances(), bits);
+}
+
+ComponentPacker::Errors ComponentPacker::errorsOf(
+  const Basis& basis, const Prepared& texture, const ClassBits& classBits)
 {
   Errors errors;
-  errors[OneValue] = texture.oneValue;
-  errors[AllTexels] = texture.allTexels;
-  for (std::size_t c = 0; c < classBits.size(); ++c)
+  errors.area = texture.area;
+  for (std::size_t way = 0; way < Ways; ++way)
   {
-    errors[1 + c] = errorLeft(texture.square, texture.coefficients, variances, classBits[c]);
+    errors.squares[way] = squareLeft(basis, texture, classBits, way);
   }
   return errors;
 }
 
 /// The way with the least error and price together, among those below the largest difference.
-std::size_t ComponentPacker::cheapest(const Errors& errors, double pricePerWord) const
+std::size_t ComponentPacker::cheapest(
+  const SquareOf& squareOf, double area, double pricePerWord) const
 {
-  const double largest = LargestDifference * LargestDifference * allowed_ * allowed_;
+  const double largest = LargestDifference * LargestDifference * allowed_ * allowed_ * area;
+  const auto priceOf = [&](std::size_t way)
+  { return pricePerWord * static_cast<double>(words_[way]); };
   std::size_t best = AllTexels;
-  double least = errors[AllTexels] + pricePerWord * static_cast<double>(words_[AllTexels]);
-  for (std::size_t way = 0; way < AllTexels; ++way)
+  double least = squareOf(AllTexels) + priceOf(AllTexels);
+  // Ways get longer and longer.
+  for (std::size_t way = 0; way < AllTexels && priceOf(way) < least; ++way)
   {
-    const double cost = errors[way] + pricePerWord * static_cast<double>(words_[way]);
-    if (errors[way] <= largest && cost < least)
+    const double square = squareOf(way);
+    if (square <= largest && square + priceOf(way) < least)
     {
       best = way;
-      least = cost;
+      least = square + priceOf(way);
     }
   }
   return best;
@@ -92,7 +117,9 @@ double ComponentPacker::priceFor(const std::vector<Errors>& sample) const
 {
   // A sample of some thousands tells the RMS of all to about 1 %.
   constexpr double Margin = 0.97;
-  const double aim = Margin * Margin * allowed_ * allowed_ * static_cast<double>(sample.size());
+  const double area = std::accumulate(sample.begin(), sample.end(), 0.0,
+    [](double sum, const Errors& errors) { return sum + errors.area; });
+  const double aim = Margin * Margin * allowed_ * allowed_ * area;
   double low = 0, high = 1;
   for (int step = 0; step < 60; ++step)
   {
@@ -100,7 +127,7 @@ double ComponentPacker::priceFor(const std::vector<Errors>& sample) const
     double sum = 0;
     for (const Errors& errors : sample)
     {
-      sum += errors[cheapest(errors, price)];
+      sum += errors.squares[cheapest(errors, price)];
     }
     (sum <= aim ? low : high) = price;
     if (high < 1e-15)
@@ -111,10 +138,10 @@ double ComponentPacker::priceFor(const std::vector<Errors>& sample) const
   return low;
 }
 
-ComponentPacker::Plan ComponentPacker::planFor(std::size_t components,
-  const std::vector<Projected>& sample, const std::vector<double>& variances,
-  double population) const
+ComponentPacker::Plan ComponentPacker::planFor(std::size_t components, const Basis& basis,
+  const std::vector<Prepared>& sample, double population) const
 {
+  const std::vector<double>& variances = basis.projection.variances();
   const auto last =
     variances.begin() + static_cast<std::ptrdiff_t>(std::min(components, variances.size()));
   Plan plan;
@@ -125,11 +152,9 @@ ComponentPacker::Plan ComponentPacker::planFor(std::size_t components,
       shareBits({ variances.begin(), last }, PackedFormat::classBitCount(words)));
     used = std::max(used, plan.classBits.back().size());
   }
-  std::vector<Errors> errors;
-  for (const Projected& texture : sample)
-  {
-    errors.push_back(errorsOf(texture, variances, plan.classBits));
-  }
+  std::vector<Errors> errors(sample.size());
+  tbb::parallel_for(std::size_t(0), sample.size(),
+    [&](std::size_t i) { errors[i] = errorsOf(basis, sample[i], plan.classBits); });
   plan.pricePerWord = priceFor(errors);
   double words = 0;
   for (const Errors& e : errors)
@@ -141,21 +166,26 @@ ComponentPacker::Plan ComponentPacker::planFor(std::size_t components,
   return plan;
 }
 
-void ComponentPacker::choose(const std::vector<float>& sample, double population)
+void ComponentPacker::choose(const TextureSample& sample)
 {
-  constexpr std::size_t MostComponents = 128;
-  format_.basis = principalComponents(format_.resolution, sample, MostComponents);
-  const TextureProjection projection(format_.basis);
-  const std::size_t texels = format_.basis.texels();
-  std::vector<Projected> projected(sample.size() / texels);
-  tbb::parallel_for(std::size_t(0), projected.size(),
-    [&](std::size_t i) { projected[i] = project(projection, sample.data() + i * texels); });
+  const std::size_t texels = texelsPerTexture();
+  // Fits to a part take time with the square of the components.
+  constexpr std::size_t MostComponents = 128, MostFitted = 64, MostPlanned = 1024;
+  const bool areWhole = sample.isWhole();
+  const std::size_t most = areWhole ? MostComponents : MostFitted;
+  format_.basis = principalComponents(format_.resolution, sample.values, most);
+  const Basis basis(format_.basis);
+  // Of a sample that is random any part is random.
+  const std::size_t count = sample.size(texels);
+  std::vector<Prepared> prepared(areWhole ? count : std::min(count, MostPlanned));
+  tbb::parallel_for(std::size_t(0), prepared.size(),
+    [&](std::size_t i) { prepared[i] = prepare(basis, sample.texture(i, texels)); });
 
   Plan best;
   best.bytes = std::numeric_limits<double>::infinity();
-  for (std::size_t components = MostComponents; components >= 4; components /= 2)
+  for (std::size_t components = most; components >= 4; components /= 2)
   {
-    Plan plan = planFor(components, projected, projection.variances(), population);
+    Plan plan = planFor(components, basis, prepared, sample.population);
     if (plan.bytes < best.bytes)
     {
       best = std::move(plan);
@@ -169,26 +199,32 @@ void ComponentPacker::choose(const std::vector<float>& sample, double population
     used = std::max(used, bits.size());
   }
   format_.basis.numbers.resize((1 + used) * texels);
-  projection_.emplace_back(format_.basis);
+  basis_.emplace(format_.basis);
 }
 
-TexturePacker::Code ComponentPacker::pack(const float* texture) const
+TexturePacker::Code ComponentPacker::pack(const WeighedTexture& texture) const
 {
-  Code oneValue = packSize(texture, 0);
-  const bool isOneValue = std::all_of(
-    texture, texture + texelsPerTexture(), [&](float value) { return value == texture[0]; });
-  if (projection_.empty() || isOneValue)
+  std::vector<float> weights;
+  const Area area = areaOf(texture, weights);
+  if (!basis_ || hasOneValue(texture.values, texelsPerTexture()))
   {
-    return oneValue;
+    return packSize(texture.values, area, 0);
   }
-  const Projected projected = project(projection_.front(), texture);
-  const Errors errors = errorsOf(projected, projection_.front().variances(), format_.classBits);
-  const std::size_t way = cheapest(errors, pricePerWord_);
-  if (way == OneValue)
+  Prepared prepared = prepare(*basis_, texture);
+  const auto squareOf = [&](std::size_t way)
+  { return squareLeft(*basis_, prepared, format_.classBits, way); };
+  const std::size_t way = cheapest(squareOf, prepared.area, pricePerWord_);
+  if (way == OneValue || way == AllTexels)
   {
-    return oneValue;
+    return packSize(texture.values, area, way == OneValue ? 0 : sizes() - 1);
   }
-  return way == AllTexels ? packSize(texture, sizes() - 1)
-                          : packClass(way - 1, projected.coefficients, errors[way]);
+  if (prepared.part)
+  {
+    prepared.coefficients = VisibleFit::fit(*prepared.part, format_.classBits[way - 1]);
+  }
+  Code code = packClass(way - 1, prepared.coefficients);
+  code.squareError = squareOf(way);
+  code.area = prepared.area;
+  return code;
 }
 }

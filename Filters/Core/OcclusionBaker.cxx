@@ -52,10 +52,9 @@ public:
   {
     result.mean = std::move(mean_);
     result.table = textures_.finish(noise, group, result.rowOf);
-    if (settings_.storage == Storage::OneValue && !result.mean.empty())
+    if (settings_.storage == Storage::OneValue && areaOutside_ > 0)
     {
-      result.table.difference =
-        std::sqrt(squaresFromMeans_ / static_cast<double>(result.mean.size()));
+      result.table.difference = std::sqrt(squaresFromMeans_ / areaOutside_);
     }
     result.counters.texturesStored = static_cast<std::uint64_t>(result.table.textures);
     result.counters.particlesDark =
@@ -68,8 +67,11 @@ private:
     mean_.push_back(meanOutside(values, shares));
     fillTexture(values, shares);
     const bool oneValue = settings_.storage == Storage::OneValue;
-    squaresFromMeans_ += oneValue ? meanSquareFrom(mean_.back()) : 0;
-    textures_.add(oneValue ? &mean_.back() : texture_.data());
+    if (oneValue)
+    {
+      addSquaresFrom(mean_.back(), shares);
+    }
+    textures_.add(oneValue ? &mean_.back() : texture_.data(), shares);
   }
 
   /// Mean over the area outside other spheres; 0 if there is none.
@@ -87,16 +89,16 @@ private:
     return area > 0 ? static_cast<float>(light / area) : 0.0f;
   }
 
-  /// Of the texture at hand, over the sphere.
-  [[nodiscard]] double meanSquareFrom(float mean) const
+  /// Of the texture at hand, over the area outside other spheres.
+  void addSquaresFrom(float mean, const float* shares)
   {
-    double sum = 0;
     for (std::size_t texel = 0; texel < texture_.size(); ++texel)
     {
+      const float outside = shares_[texel] * shares[texel];
       const float difference = texture_[texel] - mean;
-      sum += static_cast<double>(shares_[texel] * difference * difference);
+      squaresFromMeans_ += static_cast<double>(outside * difference * difference);
+      areaOutside_ += static_cast<double>(outside);
     }
-    return sum;
   }
 
   /// Texels that lie inside get their value by dilation, or 0.
@@ -125,9 +127,10 @@ private:
   const BakeSettings& settings_;
   TexelNeighbours neighbours_;
   TextureIntake textures_;
-  std::vector<double> areas_; ///< steradians of a texel, by row
-  std::vector<float> shares_; ///< of the sphere, by texel
-  double squaresFromMeans_ = 0;
+  std::vector<double> areas_;   ///< steradians of a texel, by row
+  std::vector<float> shares_;   ///< of the sphere, by texel
+  double squaresFromMeans_ = 0; ///< integrated over the area outside other spheres
+  double areaOutside_ = 0;      ///< as a share of a sphere
   std::vector<float> mean_;
   std::vector<std::uint8_t> known_; ///< of the texture at hand
   std::vector<float> texture_;
@@ -245,7 +248,8 @@ double bakeMemory(
   // The linear table stays until it is encoded, mostly at once (see TextureIntake) but not always;
   // the encoded one is copied into the data set.
   const double full = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
-  const double table = settings.storage == Storage::OneValue ? 0 : full;
+  const double weights = TextureIntake::weighsTexels(settings) ? 1 : 0;
+  const double table = settings.storage == Storage::OneValue ? 0 : full + weights;
   const double light = settings.light ? LightSweep::BytesPerTexel : 0;
   return static_cast<double>(particles) *
     (BytesPerSphere + texels * (table + light + estimator.bytesPerTexel()));

@@ -29,15 +29,27 @@ TextureIntake::TextureIntake(const BakeSettings& settings, std::size_t particles
   , linear_(settings.storage == Storage::OneValue ? 1 : settings.textureResolution, particles)
 {
   rowOf_.reserve(particles);
+  if (weighsTexels(settings))
+  {
+    weights_.emplace(settings.textureResolution);
+  }
 }
 
-void TextureIntake::add(const float* texture)
+bool TextureIntake::weighsTexels(const BakeSettings& settings)
+{
+  return settings.storage == Storage::VariableSize || settings.storage == Storage::Compressed;
+}
+
+void TextureIntake::add(const float* texture, const float* shares)
 {
   if (!bytes_ && *std::max_element(texture, texture + linear_.texelsPerRow()) >= brightest_)
   {
     beginBytes();
   }
-  rowOf_.push_back(bytes_ ? bytes_->insert(texture) : linear_.insert(texture));
+  // One value is stored as it is, whatever is visible of it.
+  const bool weigh = weights_ && !hasOneValue(texture, linear_.texelsPerRow());
+  rowOf_.push_back(bytes_ ? bytes_->insert(texture)
+                          : linear_.insert({ texture, weigh ? weights_->of(shares) : nullptr }));
 }
 
 void TextureIntake::beginBytes()

@@ -25,8 +25,13 @@ public:
   /// @param particles how many textures to expect
   TextureIntake(const BakeSettings& settings, std::size_t particles);
 
+  /// Does the storage leave out less where more is visible? What is visible then takes a byte a
+  /// texel of particles that are overlapped.
+  [[nodiscard]] static bool weighsTexels(const BakeSettings& settings);
+
   /// The texture of the next particle: T x T texels, or with Storage::OneValue one.
-  void add(const float* texture);
+  /// @param shares [T * T] of the texels' area outside other particles
+  void add(const float* texture, const float* shares);
 
   /// Brings what was taken into the form that the settings ask for.
   /// @param noise see storeTextures
@@ -42,7 +47,8 @@ private:
   std::size_t particles_;
   double brightest_; ///< no value is above it
   TextureTable linear_;
-  std::optional<ByteTable> bytes_; ///< in place of the linear ones
+  std::optional<ByteTable> bytes_;      ///< in place of the linear ones
+  std::optional<TexelWeights> weights_; ///< of storages that weigh texels
   std::vector<std::int32_t> rowOf_;
 };
 }

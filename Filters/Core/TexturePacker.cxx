@@ -10,6 +10,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string_view>
 #include <unordered_map>
@@ -61,13 +62,13 @@ private:
   std::unordered_multimap<std::size_t, std::int32_t> firstByHash_;
 };
 
-double meanSquare(const std::vector<float>& shares, const float* a, const float* b)
+double squareDifference(const float* weights, const std::vector<float>& a, const float* b)
 {
   double sum = 0;
-  for (std::size_t i = 0; i < shares.size(); ++i)
+  for (std::size_t i = 0; i < a.size(); ++i)
   {
     const double difference = static_cast<double>(a[i]) - static_cast<double>(b[i]);
-    sum += static_cast<double>(shares[i]) * difference * difference;
+    sum += static_cast<double>(weights[i]) * difference * difference;
   }
   return sum;
 }
@@ -80,22 +81,31 @@ void putBits(std::vector<std::uint8_t>& bytes, std::size_t position, std::uint32
     bytes[position / 8] |= static_cast<std::uint8_t>(((value >> bit) & 1u) << position % 8);
   }
 }
-/// First words, by row, of a table whose rows were packed; the RMS difference over particles.
-double renumber(std::vector<std::int32_t>& rowOf, const std::vector<std::int32_t>& firstOf,
-  const std::vector<double>& squareErrors)
+
+/// What became of a row.
+struct PackedRow
+{
+  std::int32_t firstWord = 0;
+  double squareError = 0;
+  double area = 0; ///< visible, as a share of the sphere
+};
+
+/// From rows to their first words; the RMS difference over what is visible of all particles.
+double renumber(std::vector<std::int32_t>& rowOf, const std::vector<PackedRow>& packed)
 {
   double sum = 0;
-  std::size_t particles = 0;
+  double area = 0;
   for (std::int32_t& row : rowOf)
   {
     if (row >= 0)
     {
-      sum += squareErrors[static_cast<std::size_t>(row)];
-      row = firstOf[static_cast<std::size_t>(row)];
-      ++particles;
+      const PackedRow& its = packed[static_cast<std::size_t>(row)];
+      sum += its.squareError;
+      area += its.area;
+      row = its.firstWord;
     }
   }
-  return particles ? std::sqrt(sum / static_cast<double>(particles)) : 0;
+  return area > 0 ? std::sqrt(sum / area) : 0;
 }
 }
 
@@ -115,13 +125,36 @@ TexturePacker::TexturePacker(int resolution, double maximum)
   }
 }
 
-TexturePacker::Code TexturePacker::packSize(const float* texture, std::size_t kind) const
+TexturePacker::Area TexturePacker::areaOf(
+  const WeighedTexture& texture, std::vector<float>& memory) const
+{
+  if (texture.weights == nullptr)
+  {
+    return { shares_.data(), 1 };
+  }
+  memory.resize(shares_.size());
+  std::transform(shares_.begin(), shares_.end(), texture.weights, memory.begin(),
+    [](float share, std::uint8_t weight)
+    { return share * static_cast<float>(weight) / static_cast<float>(TexelWeights::Whole); });
+  return { memory.data(), std::accumulate(memory.begin(), memory.end(), 0.0) };
+}
+
+TexturePacker::Code TexturePacker::packSize(
+  const float* texture, const Area& area, std::size_t kind) const
 {
   const TextureResampler& resampler = resamplers_[kind];
   const auto size = static_cast<std::size_t>(resampler.size());
   std::vector<float> reduced(size * size);
-  resampler.reduce(texture, reduced.data());
+  if (area.weights == shares_.data())
+  {
+    resampler.reduce(texture, reduced.data());
+  }
+  else
+  {
+    resampler.reduce(texture, area.weights, reduced.data());
+  }
   Code code;
+  code.area = area.sum;
   code.bytes.assign(WordBytes * PackedFormat::sizeWords(resampler.size()), 0);
   code.bytes[0] = static_cast<std::uint8_t>(kind);
   for (std::size_t i = 0; i < reduced.size(); ++i)
@@ -131,15 +164,14 @@ TexturePacker::Code TexturePacker::packSize(const float* texture, std::size_t ki
   }
   std::vector<float> shown(shares_.size());
   resampler.enlarge(reduced.data(), shown.data());
-  code.squareError = meanSquare(shares_, texture, shown.data());
+  code.squareError = squareDifference(area.weights, shown, texture);
   return code;
 }
 
 TexturePacker::Code TexturePacker::packClass(
-  std::size_t c, const std::vector<float>& coefficients, double squareError) const
+  std::size_t c, const std::vector<float>& coefficients) const
 {
   Code code;
-  code.squareError = squareError;
   code.bytes.assign(WordBytes * PackedFormat::ClassWords[c], 0);
   code.bytes[0] = static_cast<std::uint8_t>(PackedFormat::SizeKinds + c);
   std::size_t position = PackedFormat::HeaderBits;
@@ -158,13 +190,15 @@ SizePacker::SizePacker(int resolution, double maximum, double allowed)
 {
 }
 
-TexturePacker::Code SizePacker::pack(const float* texture) const
+TexturePacker::Code SizePacker::pack(const WeighedTexture& texture) const
 {
+  std::vector<float> weights;
+  const Area area = areaOf(texture, weights);
   Code code;
   for (std::size_t kind = 0; kind < sizes(); ++kind)
   {
-    code = packSize(texture, kind);
-    if (code.squareError <= allowed_ * allowed_)
+    code = packSize(texture.values, area, kind);
+    if (code.squareError <= allowed_ * allowed_ * area.sum)
     {
       break;
     }
@@ -182,8 +216,7 @@ EncodedTable packTable(
   packed.resolution = input.resolution();
   packed.maximum = packer.format().maximum;
   packed.packed = packer.format();
-  std::vector<std::int32_t> firstOf(rows);
-  std::vector<double> squareErrors(rows);
+  std::vector<PackedRow> packedRows(rows);
   std::vector<TexturePacker::Code> codes(std::min(Batch, rows));
   CodeTable distinct(packed.bytes);
   for (std::size_t begin = 0; begin < rows; begin += Batch)
@@ -191,16 +224,16 @@ EncodedTable packTable(
     const std::size_t end = std::min(rows, begin + Batch);
     tbb::parallel_for(begin, end,
       [&](std::size_t row)
-      { codes[row - begin] = packer.pack(input.values().data() + row * input.texelsPerRow()); });
+      { codes[row - begin] = packer.pack(input.texture(static_cast<std::int32_t>(row))); });
     for (std::size_t row = begin; row < end; ++row)
     {
-      firstOf[row] = distinct.insert(codes[row - begin].bytes);
-      squareErrors[row] = codes[row - begin].squareError;
+      const TexturePacker::Code& code = codes[row - begin];
+      packedRows[row] = { distinct.insert(code.bytes), code.squareError, code.area };
     }
   }
   packed.textures = distinct.size();
   packed.rows = static_cast<std::int32_t>(packed.bytes.size() / WordBytes);
-  packed.difference = renumber(rowOf, firstOf, squareErrors);
+  packed.difference = renumber(rowOf, packedRows);
   return packed;
 }
 }

@@ -13,8 +13,8 @@
 
 namespace po
 {
-/// What storing a texture may change: the RMS, over the sphere, of the difference from what was
-/// baked.
+/// What storing a texture may change: the RMS, over the area outside other particles, of the
+/// difference from what was baked.
 ///
 /// A bake errs by `noise` anyway. What is left out of a texture is at worst not noise at all; then
 /// the error grows from noise to sqrt(noise^2 + difference^2), so that the difference that adds
@@ -30,12 +30,23 @@ public:
   struct Code
   {
     std::vector<std::uint8_t> bytes; ///< whole words
-    double squareError = 0;          ///< mean square difference over the sphere
+    double squareError = 0;          ///< square difference, integrated over what is visible
+    double area = 1;                 ///< that is visible, as a share of the sphere
   };
 
   virtual ~TexturePacker() = default;
 
-  [[nodiscard]] virtual Code pack(const float* texture) const = 0;
+  [[nodiscard]] virtual Code pack(const WeighedTexture& texture) const = 0;
+
+  /// What integrals over a texture's visible area are taken with.
+  struct Area
+  {
+    const float* weights; ///< [T * T]: shares of the sphere
+    double sum;           ///< of them; 1 of a whole particle
+  };
+
+  /// @param memory for the weights, where they are not those of a whole particle
+  [[nodiscard]] Area areaOf(const WeighedTexture& texture, std::vector<float>& memory) const;
 
   [[nodiscard]] const PackedFormat& format() const { return format_; }
 
@@ -43,11 +54,10 @@ protected:
   TexturePacker(int resolution, double maximum);
 
   /// n x n texels, n = textureSizes(resolution)[kind].
-  [[nodiscard]] Code packSize(const float* texture, std::size_t kind) const;
+  [[nodiscard]] Code packSize(const float* texture, const Area& area, std::size_t kind) const;
 
   /// Coefficients, in standard deviations, as class c of the format.
-  [[nodiscard]] Code packClass(
-    std::size_t c, const std::vector<float>& coefficients, double squareError) const;
+  [[nodiscard]] Code packClass(std::size_t c, const std::vector<float>& coefficients) const;
 
   [[nodiscard]] std::size_t sizes() const { return resamplers_.size(); }
   [[nodiscard]] std::size_t texelsPerTexture() const { return shares_.size(); }
@@ -59,13 +69,14 @@ private:
   std::vector<float> shares_;
 };
 
-/// Each texture at the smallest size that does not change it by more than is allowed.
+/// Each texture at the smallest size that does not change what is visible of it by more than is
+/// allowed.
 class SizePacker : public TexturePacker
 {
 public:
   SizePacker(int resolution, double maximum, double allowed);
 
-  [[nodiscard]] Code pack(const float* texture) const override;
+  [[nodiscard]] Code pack(const WeighedTexture& texture) const override;
 
 private:
   double allowed_;

@@ -6,6 +6,7 @@
 #include "TextureTable.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace po
@@ -14,7 +15,13 @@ namespace po
 struct TextureSample
 {
   std::vector<float> values; ///< T * T each
-  double population = 0;     ///< distinct textures there are, about
+  std::vector<std::uint8_t>
+    weights;             ///< T * T each, TexelWeights::Whole for those of whole particles
+  double population = 0; ///< distinct textures there are, about
+
+  [[nodiscard]] std::size_t size(std::size_t texels) const { return values.size() / texels; }
+  [[nodiscard]] WeighedTexture texture(std::size_t i, std::size_t texels) const;
+  [[nodiscard]] bool isWhole() const; ///< are all texels?
 };
 
 /// Draws the distinct textures with the smallest hashes (a bottom-k sketch), without those of one

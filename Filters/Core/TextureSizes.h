@@ -28,6 +28,10 @@ public:
   /// @param texture T * T values
   void reduce(const float* texture, float* reduced) const;
 
+  /// The same in least squares of other weights.
+  /// @param weights T * T, positive
+  void reduce(const float* texture, const float* weights, float* reduced) const;
+
   /// What is looked up at the centres of the T x T texels.
   void enlarge(const float* reduced, float* texture) const;
 
@@ -39,13 +43,18 @@ private:
     float weight; ///< of the second
   };
 
-  void average(const float* texture, float* reduced) const;
+  using Weights = std::vector<float>;
+
+  void sum(const float* texture, const float* weights, float* sums) const;
+  [[nodiscard]] Weights gathered(const float* weights) const;
+  void reduce(const float* texture, const float* weights, const Weights& gathered, int corrections,
+    float* reduced) const;
 
   int resolution_;
   int size_;
   std::vector<Pair> columns_, rows_;
-  std::vector<float> shares_;  ///< of the sphere, by texel of T x T
-  std::vector<float> weights_; ///< that lookups give each of n x n texels in all, area-weighted
+  std::vector<float> shares_; ///< of the sphere, by texel of T x T
+  Weights gathered_;          ///< that lookups give each of n x n texels in all, area-weighted
 };
 }
 

@@ -29,8 +29,7 @@ EncodedTable compress(TextureTable&& table, double maximum, double allowed,
   constexpr std::size_t ManySamples = 4096, FewSamples = 1024, ManyTexels = 1024;
   const std::size_t most = table.texelsPerRow() < ManyTexels ? ManySamples : FewSamples;
   const TextureSample sample = sampleTextures(table, most, group);
-  const ComponentPacker packer(
-    table.resolution(), maximum, allowed, sample.values, sample.population);
+  const ComponentPacker packer(table.resolution(), maximum, allowed, sample);
   return packTable(std::move(table), packer, rowOf);
 }
 }

@@ -18,31 +18,31 @@ namespace
 {
   throw std::length_error("More than 2^31 - 1 distinct textures do not fit the texture index.");
 }
+
+bool isEqual(const WeighedTexture& a, const WeighedTexture& b, std::size_t texels)
+{
+  const bool equalWeights = a.weights && b.weights ? std::memcmp(a.weights, b.weights, texels) == 0
+                                                   : a.weights == b.weights;
+  return equalWeights && std::memcmp(a.values, b.values, texels * sizeof(float)) == 0;
+}
 }
 
-std::int32_t RowIndex::findOrAdd(const char* row, const char* rows, std::int32_t count)
+std::int32_t RowIndex::findOrAdd(std::size_t hash, const IsEqual& isEqual, std::int32_t count)
 {
   if (4 * static_cast<std::size_t>(count) >= 3 * slots_.size())
   {
     grow();
   }
-  const auto hash =
-    static_cast<std::uint32_t>(mixBits(std::hash<std::string_view>{}({ row, bytesPerRow_ })));
-  Slot& slot = find(hash,
-    [&](std::int32_t known)
-    {
-      const char* there = rows + static_cast<std::size_t>(known) * bytesPerRow_;
-      return std::memcmp(there, row, bytesPerRow_) == 0;
-    });
+  const auto mixed = static_cast<std::uint32_t>(mixBits(hash));
+  Slot& slot = find(mixed, isEqual);
   if (slot.row < 0)
   {
-    slot = { hash, count };
+    slot = { mixed, count };
   }
   return slot.row;
 }
 
-template <typename IsEqual>
-RowIndex::Slot& RowIndex::find(std::uint32_t hash, IsEqual isEqual)
+RowIndex::Slot& RowIndex::find(std::uint32_t hash, const IsEqual& isEqual)
 {
   std::size_t place = hash & (slots_.size() - 1);
   while (slots_[place].row >= 0 && (slots_[place].hash != hash || !isEqual(slots_[place].row)))
@@ -68,30 +68,48 @@ void RowIndex::grow()
 TextureTable::TextureTable(int resolution, std::size_t expected)
   : resolution_(resolution)
   , texels_(static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution))
-  , index_(texels_ * sizeof(float))
 {
   values_.reserve(expected * texels_);
 }
 
-std::int32_t TextureTable::insert(const float* texture)
+std::int32_t TextureTable::insert(const WeighedTexture& added)
 {
   if (rows_ == std::numeric_limits<std::int32_t>::max())
   {
     refuseMoreRows();
   }
   const std::int32_t row = index_.findOrAdd(
-    reinterpret_cast<const char*>(texture), reinterpret_cast<const char*>(values_.data()), rows_);
+    hashOf(added, texels_),
+    [&](std::int32_t known) { return isEqual(texture(known), added, texels_); }, rows_);
   if (row == rows_)
   {
-    values_.insert(values_.end(), texture, texture + texels_);
-    ++rows_;
+    append(added);
   }
   return row;
 }
 
+void TextureTable::append(const WeighedTexture& added)
+{
+  values_.insert(values_.end(), added.values, added.values + texels_);
+  if (added.weights)
+  {
+    weightsOf_.resize(static_cast<std::size_t>(rows_), -1);
+    weightsOf_.push_back(static_cast<std::int32_t>(weights_.size() / texels_));
+    weights_.insert(weights_.end(), added.weights, added.weights + texels_);
+  }
+  ++rows_;
+}
+
+WeighedTexture TextureTable::texture(std::int32_t row) const
+{
+  const auto i = static_cast<std::size_t>(row);
+  const std::int32_t weights = i < weightsOf_.size() ? weightsOf_[i] : -1;
+  return { values_.data() + i * texels_,
+    weights < 0 ? nullptr : weights_.data() + static_cast<std::size_t>(weights) * texels_ };
+}
+
 ByteTable::ByteTable(int resolution, double maximum, std::size_t expected)
   : row_(static_cast<std::size_t>(resolution) * static_cast<std::size_t>(resolution))
-  , index_(row_.size())
 {
   encoded_.encoding = Encoding::UInt8Gamma2;
   encoded_.resolution = resolution;
@@ -107,8 +125,14 @@ std::int32_t ByteTable::insert(const float* texture)
   }
   std::transform(texture, texture + row_.size(), row_.begin(),
     [this](float value) { return encodeGamma2(value, encoded_.maximum); });
-  const std::int32_t row = index_.findOrAdd(reinterpret_cast<const char*>(row_.data()),
-    reinterpret_cast<const char*>(encoded_.bytes.data()), encoded_.rows);
+  const std::int32_t row = index_.findOrAdd(
+    hashOfBytes(row_.data(), row_.size()),
+    [this](std::int32_t known)
+    {
+      const auto offset = static_cast<std::size_t>(known) * row_.size();
+      return std::memcmp(encoded_.bytes.data() + offset, row_.data(), row_.size()) == 0;
+    },
+    encoded_.rows);
   if (row == encoded_.rows)
   {
     encoded_.bytes.insert(encoded_.bytes.end(), row_.begin(), row_.end());

@@ -5,26 +5,24 @@
 #include "BakeSettings.h"
 #include "Gamma2.h"
 #include "PackedFormat.h"
+#include "TexelWeights.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
+#include <functional>
 #include <vector>
 
 namespace po
 {
-/// Tells rows of equal bytes apart from new ones; rows are numbered in the order they first appear.
+/// Tells rows that are known apart from new ones; rows are numbered in the order they first appear.
 class RowIndex
 {
 public:
-  explicit RowIndex(std::size_t bytesPerRow)
-    : bytesPerRow_(bytesPerRow)
-  {
-  }
+  using IsEqual = std::function<bool(std::int32_t row)>;
 
-  /// The number of an equal row among the `count` rows that start at `rows`, or `count` if there is
-  /// none: then the caller appends it.
-  std::int32_t findOrAdd(const char* row, const char* rows, std::int32_t count);
+  /// The number of an equal row among those that have such a hash, or `count` if there is none:
+  /// then the caller appends it.
+  std::int32_t findOrAdd(std::size_t hash, const IsEqual& isEqual, std::int32_t count);
 
 private:
   /// Of a hash table without lists: 11 to 21 bytes a row, where those of the library take 48.
@@ -35,37 +33,42 @@ private:
   };
 
   /// The slot of an equal row, or the empty one where it belongs.
-  template <typename IsEqual>
-  [[nodiscard]] Slot& find(std::uint32_t hash, IsEqual isEqual);
+  [[nodiscard]] Slot& find(std::uint32_t hash, const IsEqual& isEqual);
   void grow();
 
-  std::size_t bytesPerRow_;
   std::vector<Slot> slots_; ///< as many as a power of two
 };
 
-/// The distinct linear textures of a bake, one row of T * T values each.
+/// The distinct linear textures of a bake, one row of T * T values each, and what their texels
+/// count for when they are stored.
 class TextureTable
 {
 public:
   /// `expected` textures are reserved; pages of memory that stay unused cost nothing.
   TextureTable(int resolution, std::size_t expected);
 
-  /// The row that holds a texture, added if no equal one is there.
-  std::int32_t insert(const float* texture);
+  /// The row that holds a texture, added if none with equal values and weights is there.
+  std::int32_t insert(const WeighedTexture& texture);
+  std::int32_t insert(const float* values) { return insert({ values, nullptr }); }
 
   [[nodiscard]] int resolution() const { return resolution_; }
   [[nodiscard]] std::size_t texelsPerRow() const { return texels_; }
   [[nodiscard]] std::int32_t rows() const { return rows_; }
   [[nodiscard]] const std::vector<float>& values() const { return values_; }
+  [[nodiscard]] WeighedTexture texture(std::int32_t row) const;
   [[nodiscard]] std::vector<float> takeValues() { return std::move(values_); }
   /// 0 of an empty table.
   [[nodiscard]] double largestValue() const;
 
 private:
+  void append(const WeighedTexture& added);
+
   int resolution_;
   std::size_t texels_;
   std::int32_t rows_ = 0;
   std::vector<float> values_;
+  std::vector<std::int32_t> weightsOf_; ///< of the rows up to the last one that has any; or -1
+  std::vector<std::uint8_t> weights_;   ///< T * T each
   RowIndex index_;
 };
 
@@ -81,7 +84,7 @@ struct EncodedTable
   std::vector<std::uint8_t> bytes;
   std::vector<float> floats;
   PackedFormat packed;   ///< of VariableSize and Compressed
-  double difference = 0; ///< RMS over particles and the sphere, between what was baked and stored
+  double difference = 0; ///< RMS over what is visible of all, between what was baked and stored
 
   /// Are the textures of different lengths, see PackedFormat?
   [[nodiscard]] bool isPacked() const

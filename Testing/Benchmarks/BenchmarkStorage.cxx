@@ -16,6 +16,7 @@
 #include "SphereRenderer.h"
 #include "SweepEstimator.h"
 #include "TexelMap.h"
+#include "TextureRecorder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,17 +74,25 @@ Baked bake(const BakeScene& scene)
   BakeSettings settings;
   settings.encoding = Encoding::Float32Linear;
   const SweepEstimator sweep;
+  const std::size_t texels = texelShares(settings.textureResolution).size();
+  std::vector<float> shares;
+  const TextureRecorder recorder(sweep, {}, texels,
+    [&](const RawTextures& raw)
+    { shares.insert(shares.end(), raw.outsideShares, raw.outsideShares + raw.count * texels); });
   Progress progress;
-  BakeResult result = bakeOcclusion(scene, settings, sweep, progress);
+  BakeResult result = bakeOcclusion(scene, settings, recorder, progress);
   Baked baked;
   baked.resolution = settings.textureResolution;
   baked.table = TextureTable(baked.resolution, 0);
-  const std::size_t texels = baked.table.texelsPerRow();
-  for (std::int32_t row = 0; row < result.table.rows; ++row)
+  TexelWeights weights(baked.resolution);
+  for (std::size_t i = 0; i < result.rowOf.size(); ++i)
   {
-    baked.table.insert(result.table.floats.data() + static_cast<std::size_t>(row) * texels);
+    const float* texture =
+      result.table.floats.data() + static_cast<std::size_t>(result.rowOf[i]) * texels;
+    const bool weigh = !hasOneValue(texture, texels);
+    baked.rowOf.push_back(
+      baked.table.insert({ texture, weigh ? weights.of(&shares[i * texels]) : nullptr }));
   }
-  baked.rowOf = std::move(result.rowOf);
   baked.mean = std::move(result.mean);
   baked.maximum = result.table.maximum;
   baked.noise = po::SureShareOfError * sweep.report().estimatedError;

@@ -40,7 +40,7 @@ TextureTable copyOf(const Baked& baked)
   TextureTable copy(baked.resolution, static_cast<std::size_t>(baked.table.rows()));
   for (std::int32_t row = 0; row < baked.table.rows(); ++row)
   {
-    copy.insert(textureOf(baked, static_cast<std::size_t>(row)));
+    copy.insert(baked.table.texture(row));
   }
   return copy;
 }
@@ -327,17 +327,19 @@ public:
     projection_.emplace_back(format_.basis);
   }
 
-  [[nodiscard]] Code pack(const float* texture) const override
+  [[nodiscard]] Code pack(const WeighedTexture& texture) const override
   {
+    const float* values = texture.values;
+    std::vector<float> weights;
     const bool dark =
-      std::all_of(texture, texture + texelsPerTexture(), [](float value) { return value == 0; });
+      std::all_of(values, values + texelsPerTexture(), [](float value) { return value == 0; });
     if (dark)
     {
-      return packSize(texture, 0);
+      return packSize(values, areaOf({ values, nullptr }, weights), 0);
     }
     std::vector<float> coefficients(format_.basis.components());
-    projection_.front().project(texture, coefficients.data());
-    return packClass(class_, coefficients, 0);
+    projection_.front().project(values, coefficients.data());
+    return packClass(class_, coefficients);
   }
 
 private:
@@ -398,7 +400,7 @@ void addStudied(
   all.push_back(packedNearEqual(baked, "variable size, near-equal ones once",
     SizePacker(resolution, maximum, allowed), allowed));
   all.push_back(packedNearEqual(baked, "compressed, near-equal ones once",
-    ComponentPacker(resolution, maximum, allowed, sample.values, sample.population), allowed));
+    ComponentPacker(resolution, maximum, allowed, sample), allowed));
   all.push_back(fourBits(baked));
   all.push_back(vectorQuantization(baked, sample.values, 256));
   all.push_back(vectorQuantization(baked, sample.values, 2048));
@@ -419,7 +421,7 @@ void addStudied(
   all.push_back(byPacker(baked, "principal components, 12 bytes, bits by variance",
     FixedPacker(baked, firstComponents(basis, bits.size()), 1, bits)));
   all.push_back(byPacker(baked, "the same, length by texture, difference 0.01",
-    ComponentPacker(resolution, maximum, Error, sample.values, sample.population)));
+    ComponentPacker(resolution, maximum, Error, sample)));
 }
 }
 
@@ -448,8 +450,8 @@ std::vector<Candidate> makeCandidates(const Baked& baked, Candidates which)
   all.push_back(oneValue(baked));
   all.push_back(
     byPacker(baked, "**variable size**", SizePacker(baked.resolution, baked.maximum, allowed)));
-  all.push_back(byPacker(baked, "**compressed**",
-    ComponentPacker(baked.resolution, baked.maximum, allowed, sample.values, sample.population)));
+  all.push_back(byPacker(
+    baked, "**compressed**", ComponentPacker(baked.resolution, baked.maximum, allowed, sample)));
   for (Candidate& candidate : all)
   {
     candidate.timeFrames = candidate.name == all.front().name || candidate.name[0] == '*';
@@ -459,20 +461,22 @@ std::vector<Candidate> makeCandidates(const Baked& baked, Candidates which)
 
 double differenceOf(const Baked& baked, const Candidate& candidate)
 {
-  const std::vector<float> shares = texelShares(baked.resolution);
-  std::vector<float> texture(shares.size());
+  const SizePacker areas(baked.resolution, baked.maximum, 0);
+  std::vector<float> weights, texture(texelsOf(baked));
   double sum = 0;
-  double count = 0;
+  double visible = 0;
   for (std::size_t particle = 0; particle < baked.rowOf.size(); ++particle)
   {
     if (baked.mean[particle] > 0)
     {
       candidate.decode(particle, texture.data());
-      const float* own = textureOf(baked, static_cast<std::size_t>(baked.rowOf[particle]));
-      sum += squareDifference(shares, own, texture.data());
-      ++count;
+      const WeighedTexture own = baked.table.texture(baked.rowOf[particle]);
+      const TexturePacker::Area area = areas.areaOf(own, weights);
+      sum += squareDifference(
+        { area.weights, area.weights + texture.size() }, own.values, texture.data());
+      visible += area.sum;
     }
   }
-  return std::sqrt(sum / count);
+  return std::sqrt(sum / visible);
 }
 }

@@ -48,7 +48,7 @@ enum class Candidates
 /// The ways that are compared. They refer to `baked`.
 [[nodiscard]] std::vector<Candidate> makeCandidates(const Baked& baked, Candidates which);
 
-/// RMS difference from what was baked, over all particles that light reaches and their spheres.
+/// RMS difference from what was baked, over what is visible of all particles that light reaches.
 [[nodiscard]] double differenceOf(const Baked& baked, const Candidate& candidate);
 }
 

@@ -284,6 +284,13 @@ TEST(BakeCache, WhateverChangesTheResultIsBakedAnew)
     { "DilateInside", [](Filter* f) { f->DilateInsideOff(); } },
     { "InsideThreshold", [](Filter* f) { f->SetInsideThreshold(0.1); } },
     { "Encoding", [](Filter* f) { f->SetEncoding(Filter::Float32Linear); } },
+    { "Storage", [](Filter* f) { f->SetStorage(Filter::VariableSize); } },
+    { "StorageError",
+      [](Filter* f)
+      {
+        f->SetStorage(Filter::VariableSize);
+        f->SetStorageError(0.02);
+      } },
     { "Seed", [](Filter* f) { f->SetSeed(2); } },
     { "Occluders", [](Filter* f) { f->SetInputData(Filter::OccludersPort, cloud(7, 3)); } },
   };

@@ -146,6 +146,27 @@ TEST(OutOfCore, GivesTheSameBits)
   EXPECT_EQ(folder.count(), 0u); // nothing is left
 }
 
+TEST(OutOfCore, ALightAndATargetGiveTheSameBits)
+{
+  for (const bool target : { false, true })
+  {
+    const TemporaryFolder folder;
+    // With a target all is in memory: there is no file, so that its folder need not be there.
+    const TemporaryFilesIn here(folder.file(target ? "nowhere" : ""));
+    vtkNew<vtkSphereAmbientOcclusion> filter;
+    filter->SetInputData(lattice(8));
+    filter->SetMethod(Method::Sweep);
+    filter->BakeLightOn();
+    filter->SetTargetError(target ? 0.04 : 0);
+    EXPECT_EQ(errorOf(filter), "");
+    const std::string inMemory = bitsOf(filter->GetOutputDataObject(0));
+    filter->OutOfCoreOn();
+    EXPECT_EQ(errorOf(filter), "");
+    EXPECT_TRUE(bitsOf(filter->GetOutputDataObject(0)) == inMemory) << target;
+    EXPECT_EQ(folder.count(), 0u);
+  }
+}
+
 TEST(OutOfCore, AFolderThatIsNotThereIsOneError)
 {
   const TemporaryFolder folder;

@@ -48,7 +48,40 @@ vtkSmartPointer<vtkPolyData> baked(int storage)
   return bakedBy(bakeWith(mixedCloud(Particles), storage));
 }
 
-/// RMS difference of what is looked up, over particles and directions; directions are even.
+/// The spheres, to tell what of them is inside of no other.
+struct Spheres
+{
+  explicit Spheres(vtkPolyData* data)
+  {
+    vtkDataArray* array = data->GetPointData()->GetArray("radius");
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      data->GetPoint(i, p);
+      centers.push_back({ p[0], p[1], p[2] });
+      radii.push_back(array->GetComponent(i, 0));
+    }
+  }
+
+  [[nodiscard]] bool isVisible(std::size_t particle, const po::Vec3d& direction) const
+  {
+    const po::Vec3d point = centers[particle] + radii[particle] * direction;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+    {
+      const po::Vec3d away = point - centers[i];
+      if (i != particle && dot(away, away) < radii[i] * radii[i])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<po::Vec3d> centers;
+  std::vector<double> radii;
+};
+
+/// RMS difference of what is looked up, over what is visible of all particles.
 double lookupDifference(vtkPolyData* a, vtkPolyData* b)
 {
   std::string fault;
@@ -57,8 +90,10 @@ double lookupDifference(vtkPolyData* a, vtkPolyData* b)
   const po::BakedTextures second = po::readBakedTextures(*b, fault);
   EXPECT_EQ(fault, "");
   EXPECT_EQ(a->GetNumberOfPoints(), b->GetNumberOfPoints());
+  const Spheres spheres(a);
   po::Random random(2, 0, 0);
   double sum = 0;
+  int visible = 0;
   constexpr int Directions = 100;
   for (vtkIdType i = 0; i < a->GetNumberOfPoints(); ++i)
   {
@@ -66,15 +101,18 @@ double lookupDifference(vtkPolyData* a, vtkPolyData* b)
     {
       const double z = 2 * random.uniform() - 1, azimuth = 6.2831853 * random.uniform();
       const double r = std::sqrt(1 - z * z);
-      const po::Vec3f direction =
-        po::Vec3d{ r * std::cos(azimuth), r * std::sin(azimuth), z }.as<float>();
+      const po::Vec3d direction{ r * std::cos(azimuth), r * std::sin(azimuth), z };
       const auto particle = static_cast<std::size_t>(i);
-      const double d = static_cast<double>(
-        first.textures.at(particle, direction) - second.textures.at(particle, direction));
-      sum += d * d;
+      if (spheres.isVisible(particle, direction))
+      {
+        const double d = static_cast<double>(first.textures.at(particle, direction.as<float>()) -
+          second.textures.at(particle, direction.as<float>()));
+        sum += d * d;
+        ++visible;
+      }
     }
   }
-  return std::sqrt(sum / (Directions * static_cast<double>(a->GetNumberOfPoints())));
+  return visible > 0 ? std::sqrt(sum / visible) : 0;
 }
 
 /// With the share of the noise that the bake is sure of.
