@@ -18,7 +18,6 @@
 
 class vtkDataArray;
 class vtkPointSet;
-class vtkPolyData;
 
 namespace po
 {
@@ -47,17 +46,6 @@ struct ExpandedRows
 /// warning; with an array that is missing or wrong, `warning` names it and the textures are empty.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT BakedTextures readBakedTextures(
   vtkPointSet& points, std::string& warning);
-
-/// One poly data, without cells, of the points of all blocks. Point arrays that are not in all
-/// blocks are dropped, as vtkAppendPolyData does.
-///
-/// Texture tables are put one after the other, and the points' rows follow. Tables of one encoding
-/// and maximum are copied; where maxima or encodings differ, or textures have different
-/// lengths and another basis, they are decoded to float32. A block
-/// without textures gets row -1. Where the resolutions differ, or a block's arrays are wrong, there
-/// are no textures in the result, and `warning` says why.
-[[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT vtkSmartPointer<vtkPolyData> mergeParticles(
-  const std::vector<vtkPointSet*>& blocks, std::string& warning);
 }
 
 #endif

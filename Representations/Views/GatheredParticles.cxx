@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "GatheredParticles.h"
 
-#include "BakedTextures.h"
 #include "BlockLooks.h"
 #include "BlockTable.h"
 #include "Blocks.h"
+#include "MergedParticles.h"
 
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ParticleDelivery.h"
 
-#include "BakedTextures.h"
 #include "Blocks.h"
+#include "MergedParticles.h"
 
 #include "vtkDataObject.h"
 #include "vtkMultiBlockDataSet.h"

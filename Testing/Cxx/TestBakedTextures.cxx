@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakedTextures.h"
+#include "MergedParticles.h"
 #include "OcclusionParameters.h"
 #include "TextureTable.h"
 

@@ -4,6 +4,7 @@
 #include "BakeFilterTestSupport.h"
 #include "BakedTextures.h"
 #include "ExrTestSupport.h"
+#include "MergedParticles.h"
 #include "OcclusionBaker.h"
 #include "OcclusionParameters.h"
 #include "ParallelBakeTestSupport.h"

@@ -9,6 +9,7 @@
 
 #include "BakedTextures.h"
 #include "Blocks.h"
+#include "MergedParticles.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkPointData.h"
