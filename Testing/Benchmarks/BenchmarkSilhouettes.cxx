@@ -17,6 +17,7 @@
 /// threads, by turns or into slabs. CPU time of all of them together, with what one process takes
 /// alone in the same iteration, and bytes that are handed from process to process.
 
+#include "FreeLength.h"
 #include "SharedSilhouettes.h"
 #include "SilhouettePixels.h"
 #include "SilhouetteRims.h"
@@ -163,7 +164,7 @@ void lines(benchmark::State& state, const std::string& family)
   camera.worldToEye[3] += count > 0 ? 0 : 1e3; // out of sight
   SilhouetteParameters parameters;
   parameters.samples = static_cast<int>(state.range(1));
-  const SilhouetteRule rule = resolve(parameters, { cloud.scale, 2 * extent });
+  const double meanRadius = cloud.scale;
 
   const Textures textures(cloud.spheres.size());
   Style direct, display, shadowed;
@@ -176,6 +177,8 @@ void lines(benchmark::State& state, const std::string& family)
   const bool isSmooth = parameters.samples > 1;
   SphereRenderer renderer;
   renderer.setCloud(std::move(cloud));
+  const SilhouetteRule rule =
+    resolve(parameters, { meanRadius, 2 * extent, renderer.freeLength() });
   SilhouetteImage image;
   SilhouettePixels pixels;
   SilhouetteCounters counters;
@@ -273,7 +276,8 @@ void shared(benchmark::State& state, const std::string& family)
   const SphereCloud cloud = makeCloud(family, static_cast<std::size_t>(state.range(0)));
   const double extent = extentOf(cloud);
   const Camera camera = viewOf(cloud, extent);
-  const SilhouetteRule rule = resolve({}, { cloud.scale, 2 * extent });
+  const ParticleSet set{ static_cast<double>(cloud.spheres.size()), cloud.scale };
+  const SilhouetteRule rule = resolve({}, { cloud.scale, 2 * extent, meanFreeLength(cloud, set) });
   const std::vector<int> owner = divide(cloud, processes, state.range(2) != 0);
   const auto whole = traceOwn(cloud, std::vector<int>(owner.size(), 0), 0, camera);
   std::vector<std::unique_ptr<SphereRenderer>> parts;
