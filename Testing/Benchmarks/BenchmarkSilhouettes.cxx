@@ -12,6 +12,7 @@
 /// - the default display with hard shadows, and
 /// - the default display with four rays a pixel.
 /// Wall-clock times show how lines scale over threads. Without particles the frame is empty.
+/// The floor: to read once, and do nothing else with, the depths of the tiles that may have lines.
 ///
 /// Shared/FAMILY/PARTICLES/PROCESSES/SLABS: the particles are divided over processes, played by
 /// threads, by turns or into slabs. CPU time of all of them together, with what one process takes
@@ -21,6 +22,7 @@
 #include "SharedSilhouettes.h"
 #include "SilhouettePixels.h"
 #include "SilhouetteRims.h"
+#include "SilhouetteTiles.h"
 #include "SphereRenderer.h"
 #include "SyntheticSpheres.h"
 #include "ThreadGroup.h"
@@ -153,6 +155,33 @@ Camera viewOf(const SphereCloud& cloud, double extent)
   return { worldToEye, eyeToClip, Width, Height };
 }
 
+/// Reads the depths of the tiles that may have lines.
+void readDepths(const TracedFrame& frame, const SilhouetteRule& rule, SilhouetteImage& nothing)
+{
+  const std::vector<int> tiles = tilesToSearch(frame.tiles, rule, nothing, true);
+  const int columns = depthTiles(frame.width);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 32),
+    [&](const tbb::blocked_range<std::size_t>& part)
+    {
+      double farthest = 0;
+      for (std::size_t at = part.begin(); at < part.end(); ++at)
+      {
+        const int x = tiles[at] % columns * DepthTileSize;
+        const int y = tiles[at] / columns * DepthTileSize;
+        for (int j = y; j < std::min(y + DepthTileSize, frame.height); ++j)
+        {
+          const double* row = frame.t.data() + static_cast<std::ptrdiff_t>(j) * frame.width;
+          // One number of each cache line.
+          for (int i = x; i < std::min(x + DepthTileSize, frame.width); i += 8)
+          {
+            farthest = std::max(farthest, row[i]);
+          }
+        }
+      }
+      benchmark::DoNotOptimize(farthest);
+    });
+}
+
 void lines(benchmark::State& state, const std::string& family)
 {
   const auto count = static_cast<std::size_t>(state.range(0));
@@ -182,13 +211,21 @@ void lines(benchmark::State& state, const std::string& family)
   SilhouetteImage image;
   SilhouettePixels pixels;
   SilhouetteCounters counters;
-  Spent tracing, shadingDirect, shadingDisplay, search, coloring, shadows, samples;
-  const auto iterate = [&]
+  SilhouetteImage nothing;
+  nothing.width = Width;
+  nothing.height = Height;
+  nothing.tileRows.assign(static_cast<std::size_t>(depthTiles(Width)) * depthTiles(Height), 0);
+  Spent tracing, shadingDirect, shadingDisplay, search, coloring, shadows, samples, reading;
+  const auto makeFrame = [&]
   {
     camera.worldToEye[3] += 1e-9 * extent; // a new view each time: nothing is kept
     tracing.measure([&] { benchmark::DoNotOptimize(renderer.trace(camera, Identity)); });
     shadingDirect.measure([&] { renderer.shade(direct); });
     shadingDisplay.measure([&] { renderer.shade(display); });
+  };
+  const auto iterate = [&]
+  {
+    makeFrame();
     const TracedFrame& frame = renderer.frame();
     search.measure(
       [&]
@@ -213,6 +250,8 @@ void lines(benchmark::State& state, const std::string& family)
   for (auto _ : state)
   {
     iterate();
+    makeFrame(); // so that no depth is in the cache
+    reading.measure([&] { readDepths(renderer.frame(), rule, nothing); });
   }
   const auto covered = std::count_if(
     image.strength.begin(), image.strength.end(), [](float strength) { return strength > 0; });
@@ -221,6 +260,7 @@ void lines(benchmark::State& state, const std::string& family)
   state.counters["display_cpu"] = display_cpu;
   state.counters["cheapest_cpu"] = cheapest_cpu;
   state.counters["lines_cpu"] = search.cpu();
+  state.counters["floor_cpu"] = reading.cpu();
   state.counters["coloring_cpu"] = coloring.cpu();
   state.counters["display_%"] = 100 * search.cpu() / display_cpu;
   state.counters["colored_%"] = 100 * (search.cpu() + coloring.cpu()) / display_cpu;
