@@ -164,9 +164,10 @@ void visitFormat(Archive& archive, Format& format)
 template <typename Archive, typename Table>
 void visitTable(Archive& archive, Table& table)
 {
-  auto& [storage, encoding, resolution, rows, textures, maximum, bytes, floats, packed,
-    difference] = table;
-  visitNumbers(archive, storage, encoding, resolution, rows, textures, maximum, difference);
+  auto& [storage, encoding, resolution, rows, textures, maximum, bytes, floats, packed, difference,
+    comparedArea] = table;
+  visitNumbers(
+    archive, storage, encoding, resolution, rows, textures, maximum, difference, comparedArea);
   archive.array(bytes);
   archive.array(floats);
   visitFormat(archive, packed);

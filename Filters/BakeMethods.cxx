@@ -33,10 +33,9 @@ SweepEstimator sweepFor(const BakeTask& task)
   return SweepEstimator(options);
 }
 
-/// The RMS over the particles of all processes.
-double errorOfAll(double own, std::size_t particles, const ProcessGroup& group)
+/// The RMS of what all processes have, each with a weight.
+double errorOfAll(double own, double weight, const ProcessGroup& group)
 {
-  const auto weight = static_cast<double>(particles);
   const double squares = group.sum(weight * own * own);
   const double weights = group.sum(weight);
   return weights > 0 ? std::sqrt(squares / weights) : 0;
@@ -110,8 +109,9 @@ private:
     report_.directions = static_cast<int>(group_.largest(directions));
     report_.samplesUsed = task_.settings.samplesPerTexel;
     report_.estimatedError =
-      errorIsOfAll ? error : errorOfAll(error, task_.receivers.size(), group_);
-    report_.storageDifference = errorOfAll(result.table.difference, task_.receivers.size(), group_);
+      errorIsOfAll ? error : errorOfAll(error, double(task_.receivers.size()), group_);
+    report_.storageDifference =
+      errorOfAll(result.table.difference, result.table.comparedArea, group_);
     report_.maximum = result.table.maximum;
   }
 

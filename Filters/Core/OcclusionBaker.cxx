@@ -54,6 +54,7 @@ public:
     result.table = textures_.finish(noise, group, result.rowOf);
     if (settings_.storage == Storage::OneValue && areaOutside_ > 0)
     {
+      result.table.comparedArea = areaOutside_;
       result.table.difference = std::sqrt(squaresFromMeans_ / areaOutside_);
     }
     result.counters.texturesStored = static_cast<std::uint64_t>(result.table.textures);

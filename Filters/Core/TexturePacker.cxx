@@ -90,22 +90,22 @@ struct PackedRow
   double area = 0; ///< visible, as a share of the sphere
 };
 
-/// From rows to their first words; the RMS difference over what is visible of all particles.
-double renumber(std::vector<std::int32_t>& rowOf, const std::vector<PackedRow>& packed)
+/// From rows to their first words; what the difference is over what is visible of all particles.
+void renumber(
+  std::vector<std::int32_t>& rowOf, const std::vector<PackedRow>& packed, EncodedTable& table)
 {
   double sum = 0;
-  double area = 0;
   for (std::int32_t& row : rowOf)
   {
     if (row >= 0)
     {
       const PackedRow& its = packed[static_cast<std::size_t>(row)];
       sum += its.squareError;
-      area += its.area;
+      table.comparedArea += its.area;
       row = its.firstWord;
     }
   }
-  return area > 0 ? std::sqrt(sum / area) : 0;
+  table.difference = table.comparedArea > 0 ? std::sqrt(sum / table.comparedArea) : 0;
 }
 }
 
@@ -233,7 +233,7 @@ EncodedTable packTable(
   }
   packed.textures = distinct.size();
   packed.rows = static_cast<std::int32_t>(packed.bytes.size() / WordBytes);
-  packed.difference = renumber(rowOf, packedRows);
+  renumber(rowOf, packedRows, packed);
   return packed;
 }
 }

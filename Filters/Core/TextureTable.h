@@ -85,6 +85,7 @@ struct EncodedTable
   std::vector<float> floats;
   PackedFormat packed;   ///< of VariableSize and Compressed
   double difference = 0; ///< RMS over what is visible of all, between what was baked and stored
+  double comparedArea = 0; ///< that this is the RMS over, in spheres
 
   /// Are the textures of different lengths, see PackedFormat?
   [[nodiscard]] bool isPacked() const
