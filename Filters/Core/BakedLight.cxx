@@ -52,7 +52,7 @@ BakedLight::Workspace BakedLight::makeWorkspace() const
 {
   const std::vector<float> slots(texels_.slots());
   const std::vector<float> texels(formula_.texels());
-  return { ParticleView(scene_, distance_, RayShare::One), {}, TexelExposure(), {}, slots, slots,
+  return { ParticleView(scene_, distance_, RayShare::One), {}, {}, {}, {}, slots, slots,
     texels, texels };
 }
 
@@ -94,8 +94,9 @@ void BakedLight::look(unsigned id, Workspace& work) const
   OutsideSurface outside = formula_.whole();
   if (!work.overlaps.caps.empty())
   {
-    exposeTexels(texels_, patterns_, work.overlaps.caps, work.exposure);
-    outside = formula_.cut(work.exposure);
+    exposeTexels(
+      texels_, patterns_, work.rims.find(texels_, work.overlaps.caps), work.exposure);
+    formula_.cut(work.exposure, outside);
   }
   // Every point counts, those that face away too.
   std::transform(outside.shares.begin(), outside.shares.end(), work.weights.begin(),

@@ -7,6 +7,7 @@
 #include "ParticleView.h"
 #include "SharedDirections.h"
 #include "SweepTexels.h"
+#include "RimFinder.h"
 #include "TextureFormula.h"
 
 #include <tbb/enumerable_thread_specific.h>
@@ -53,6 +54,7 @@ private:
   {
     ParticleView view;
     Overlaps overlaps;
+    RimFinder rims;
     TexelExposure exposure;
     std::vector<GroupMask> mask;
     std::vector<float> sums, weights; ///< [slots]

@@ -103,9 +103,9 @@ void TextureFormula::addIrradiance(
   }
 }
 
-OutsideSurface TextureFormula::cut(const TexelExposure& exposure) const
+void TextureFormula::cut(const TexelExposure& exposure, OutsideSurface& surface) const
 {
-  OutsideSurface surface = whole_;
+  surface = whole_;
   for (std::size_t slot = 0; slot < surface.shares.size(); ++slot)
   {
     const bool outside = (exposure.bits[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
@@ -132,7 +132,6 @@ OutsideSurface TextureFormula::cut(const TexelExposure& exposure) const
       }
     }
   }
-  return surface;
 }
 
 void TextureFormula::fill(const OutsideSurface& surface, const float* sums, const float* weights,

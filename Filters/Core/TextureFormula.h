@@ -50,7 +50,8 @@ public:
   /// Of a particle that nothing overlaps.
   [[nodiscard]] const OutsideSurface& whole() const { return whole_; }
   /// Of one whose points are exposed like this.
-  [[nodiscard]] OutsideSurface cut(const TexelExposure& exposure) const;
+  /// @param surface is overwritten, and keeps its memory
+  void cut(const TexelExposure& exposure, OutsideSurface& surface) const;
 
   /// Number of texels of a texture.
   [[nodiscard]] std::size_t texels() const { return areas_.size(); }
