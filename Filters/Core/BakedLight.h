@@ -5,9 +5,9 @@
 #include "LightSweep.h"
 #include "OcclusionEstimator.h"
 #include "ParticleView.h"
+#include "RimFinder.h"
 #include "SharedDirections.h"
 #include "SweepTexels.h"
-#include "RimFinder.h"
 #include "TextureFormula.h"
 
 #include <tbb/enumerable_thread_specific.h>

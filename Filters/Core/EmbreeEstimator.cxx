@@ -246,8 +246,7 @@ private:
     TexelExposure exposure;
     if (!work.overlaps.caps.empty())
     {
-      exposeTexels(
-        texels_, set.patterns(), work.rims.find(texels_, work.overlaps.caps), exposure);
+      exposeTexels(texels_, set.patterns(), work.rims.find(texels_, work.overlaps.caps), exposure);
       if (firstSet)
       {
         OutsideSurface outside;

@@ -81,7 +81,8 @@ void RimFinder::list(const std::vector<BuriedCap>& caps)
   }
 }
 
-const TexelRims* copyTo(std::pmr::memory_resource& memory, const TexelRims& rims, std::size_t groups)
+const TexelRims* copyTo(
+  std::pmr::memory_resource& memory, const TexelRims& rims, std::size_t groups)
 {
   std::size_t caps = 0;
   const std::size_t places = rims.firstCap(rims.count);

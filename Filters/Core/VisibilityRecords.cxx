@@ -151,9 +151,9 @@ VisibilityRecords::Record& VisibilityRecords::findOrMakeRecord(unsigned sphere)
     return *known;
   }
   // Two threads may make the same at once; both are equal, and one is not used.
-  Record* made = new (memory_.allocate<Record>(1)) Record{
-    memory_.allocate<GroupMask>(AxesPerBlock * texels_.groups()), makeSums(1),
-    watched_[sphere] != 0 ? makeSums(ErrorSubsets) : nullptr };
+  Record* made = new (memory_.allocate<Record>(1))
+    Record{ memory_.allocate<GroupMask>(AxesPerBlock * texels_.groups()), makeSums(1),
+      watched_[sphere] != 0 ? makeSums(ErrorSubsets) : nullptr };
   return *(place.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 

@@ -145,11 +145,11 @@ private:
   std::size_t epoch_ = 0; ///< the present one
   OpenWeights open_;
   RecordMemory memory_;
-  std::vector<std::atomic<Surface>> surface_;        ///< by sphere
-  std::vector<std::atomic<const TexelRims*>> rims_;  ///< by sphere: of cut ones
-  std::vector<std::atomic<Record*>> records_;        ///< by sphere; empty out of core
-  std::vector<std::uint8_t> watched_;     ///< flags by sphere
-  std::unique_ptr<LoggedVisibility> log_; ///< null: in chunks
+  std::vector<std::atomic<Surface>> surface_;       ///< by sphere
+  std::vector<std::atomic<const TexelRims*>> rims_; ///< by sphere: of cut ones
+  std::vector<std::atomic<Record*>> records_;       ///< by sphere; empty out of core
+  std::vector<std::uint8_t> watched_;               ///< flags by sphere
+  std::unique_ptr<LoggedVisibility> log_;           ///< null: in chunks
 };
 }
 
