@@ -17,7 +17,7 @@ WIDTH, HEIGHT = 1280, 960
 
 def stop_bake(display, outcome):
     """Clicks along the status bar, where the cross is, until the session has something to say."""
-    until = time.time() + 150
+    until = time.time() + 300
     while not os.path.exists(outcome) and time.time() < until and display.window.poll() is None:
         display.click_along(HEIGHT - 15, 200, 700)
         time.sleep(1)

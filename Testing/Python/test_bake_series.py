@@ -37,7 +37,7 @@ class Series(unittest.TestCase):
         settings = [f"{name}={value}" for name, value in SETTINGS.items()]
         return subprocess.run(
             [PVBATCH, os.path.join(DATA, "Examples", "bake_series.py"), *arguments, "--set", *settings],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=250)
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600)
 
     def table(self, source):
         data = servermanager.Fetch(source)

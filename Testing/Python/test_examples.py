@@ -25,7 +25,7 @@ def script(name):
 def run(*command, code=0):
     """Runs a command; returns what it printed and what it complained of."""
     environment = dict(servers.mpi_environment(), PYTHONPATH=PACKAGES)
-    done = subprocess.run(command, capture_output=True, text=True, timeout=200, env=environment, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, env=environment, check=False)
     if done.returncode != code or (code == 0 and ("Traceback" in done.stderr or "ERR|" in done.stderr)):
         raise SystemExit(f"{command} ended with {done.returncode}:\n{done.stdout}\n{done.stderr}")
     return done.stdout, done.stderr

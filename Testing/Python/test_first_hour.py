@@ -24,7 +24,7 @@ def main():
                f"--test-script={os.path.join(HERE, 'gui_first_hour.xml')}"]
     try:
         session = subprocess.run(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                                 errors="replace", timeout=100, check=False)
+                                 errors="replace", timeout=300, check=False)
         passed = session.returncode == 0 and "Success =  true" in session.stdout
         if not passed or "ERR|" in session.stdout or "WARN|" in session.stdout:
             raise SystemExit(f"ParaView has ended with {session.returncode}:\n{session.stdout[-4000:]}")

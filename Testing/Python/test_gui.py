@@ -25,7 +25,7 @@ def run_paraview(executable, output):
     # --dr: no settings of the user's, and no welcome window that would wait for a click.
     command = [executable, "--dr", f"--script={os.path.join(HERE, 'gui_session.py')}"]
     with open(os.path.join(output, "log.txt"), "w", encoding="utf-8") as log:
-        subprocess.run(command, env=environment, stdout=log, stderr=log, timeout=100, check=False)
+        subprocess.run(command, env=environment, stdout=log, stderr=log, timeout=300, check=False)
 
 
 def read(path):

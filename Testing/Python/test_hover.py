@@ -19,7 +19,7 @@ WELCOME = (625, 440)  # in a dialog that tells what hovering is, in the middle o
 
 def rest_on_particle(display, named):
     """Rests the mouse here and there on the particle until it is named; returns whether it was."""
-    until = time.time() + 60
+    until = time.time() + 180
     step = 0
     while not os.path.exists(named) and time.time() < until and display.window.poll() is None:
         step += 1

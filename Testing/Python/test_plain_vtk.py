@@ -15,7 +15,7 @@ DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Dat
 
 
 def run(*arguments):
-    return subprocess.run([sys.argv[1], *arguments], capture_output=True, text=True, timeout=100)
+    return subprocess.run([sys.argv[1], *arguments], capture_output=True, text=True, timeout=300)
 
 
 def check_refused(*arguments, says):

@@ -131,7 +131,7 @@ def run_session(command, folder, data, ranks, mesh_samples):
     path = f"{os.path.splitext(data)[0]}-on-{ranks}"
     with open(path + ".py", "w", encoding="utf-8") as file:
         file.write(SESSION.format(name=path, data=data, mesh_samples=mesh_samples))
-    done = subprocess.run([*command, path + ".py"], capture_output=True, text=True, timeout=200, cwd=folder,
+    done = subprocess.run([*command, path + ".py"], capture_output=True, text=True, timeout=600, cwd=folder,
                           env=servers.mpi_environment(), check=False)
     if done.returncode != 0 or not os.path.exists(path + ".txt") or "|" in done.stderr:
         raise SystemExit(f"{path} failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")

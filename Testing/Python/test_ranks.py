@@ -69,7 +69,7 @@ def run_session(command, folder, name, port=0, threshold=0):
     with open(path + ".py", "w", encoding="utf-8") as file:
         file.write(SESSION.format(port=port, threshold=threshold, name=path, counters=COUNTERS,
                                   data=os.path.join(folder, "molecule.pvtp")))
-    done = subprocess.run([*command, path + ".py"], capture_output=True, text=True, timeout=200,
+    done = subprocess.run([*command, path + ".py"], capture_output=True, text=True, timeout=600,
                           env=servers.mpi_environment(), check=False)
     if done.returncode != 0 or not os.path.exists(path + ".png") or "WARN|" in done.stderr:
         raise SystemExit(f"{name} failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")

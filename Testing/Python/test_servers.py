@@ -93,7 +93,7 @@ def run_ranks(mpiexec, pvbatch, folder, ranks):
     with open(script, "w", encoding="utf-8") as file:
         file.write(RANKS.format(picture=picture))
     done = subprocess.run([mpiexec, "-n", str(ranks), pvbatch, script], capture_output=True, text=True,
-                          timeout=100, check=False, env=servers.mpi_environment())
+                          timeout=300, check=False, env=servers.mpi_environment())
     if done.returncode != 0 or not os.path.exists(picture):
         raise SystemExit(f"{ranks} ranks failed ({done.returncode}):\n{done.stdout}\n{done.stderr}")
     return picture
@@ -106,7 +106,7 @@ def run_session(executable, folder, name, ports=(), threshold=0):
     with open(script, "w", encoding="utf-8") as file:
         file.write(SESSION.format(ports=ports, threshold=threshold, picture=picture,
                                   data=os.path.join(DATA, "molecule.vtp")))
-    done = subprocess.run([executable, script], capture_output=True, text=True, timeout=100, check=False)
+    done = subprocess.run([executable, script], capture_output=True, text=True, timeout=300, check=False)
     # A server goes on with what it was asked for after its client has left.
     complete = all(wait_for(picture + suffix) for suffix in ("", ".exr", "-paged.png"))
     if done.returncode != 0 or not complete or "ERR|" in done.stderr:
