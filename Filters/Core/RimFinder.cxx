@@ -24,22 +24,42 @@ const T* copied(std::pmr::memory_resource& memory, const T* first, std::size_t c
 
 TexelRims RimFinder::find(const SweepTexels& texels, const std::vector<BuriedCap>& caps)
 {
-  classify(texels, caps);
-  list(caps);
+  return find(texels, list(caps));
+}
+
+TexelRims RimFinder::find(const SweepTexels& texels, const TexelRims& caps)
+{
+  all_.assign(caps.caps, caps.caps + caps.firstCap(1));
+  classify(texels);
+  listByGroup();
   return { outside_.data(), rims_.data(), rims_.size(), capOf_.data(), caps_.data() };
 }
 
-void RimFinder::classify(const SweepTexels& texels, const std::vector<BuriedCap>& caps)
+TexelRims RimFinder::list(const std::vector<BuriedCap>& caps)
+{
+  caps_.clear();
+  capOf_.clear();
+  for (const BuriedCap& cap : caps)
+  {
+    capOf_.push_back(static_cast<std::uint32_t>(caps_.size()));
+    caps_.push_back({ cap.axis.as<float>(), static_cast<float>(cap.cosine) });
+  }
+  rims_.assign(1, { 0, AllOfGroup, static_cast<std::uint32_t>(caps_.size()) });
+  return { nullptr, rims_.data(), 1, capOf_.data(), caps_.data() };
+}
+
+void RimFinder::classify(const SweepTexels& texels)
 {
   const std::size_t groups = texels.groups();
   outside_ = texels.allBits();
   covered_.resize(groups);
-  parts_.resize(caps.size() * groups);
-  for (std::size_t i = 0; i < caps.size(); ++i)
+  parts_.resize(all_.size() * groups);
+  for (std::size_t i = 0; i < all_.size(); ++i)
   {
-    const double sine = std::sqrt((1 - caps[i].cosine) * (1 + caps[i].cosine));
-    classifyCap(texels.discs(), caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine),
-      static_cast<float>(sine), covered_.data(), parts_.data() + i * groups);
+    const auto cosine = static_cast<double>(all_[i].cosine);
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+    classifyCap(texels.discs(), all_[i].axis, all_[i].cosine, static_cast<float>(sine),
+      covered_.data(), parts_.data() + i * groups);
     for (std::size_t g = 0; g < groups; ++g)
     {
       outside_[g] = static_cast<GroupMask>(outside_[g] & ~covered_[g]);
@@ -48,17 +68,17 @@ void RimFinder::classify(const SweepTexels& texels, const std::vector<BuriedCap>
 }
 
 /// Lists, group by group, the caps whose rims cross texels that are not inside.
-void RimFinder::list(const std::vector<BuriedCap>& caps)
+void RimFinder::listByGroup()
 {
   rims_.clear();
   capOf_.clear();
   caps_.clear();
   const std::size_t groups = outside_.size();
-  std::vector<std::uint32_t> places(caps.size(), Unlisted);
+  places_.assign(all_.size(), Unlisted);
   for (std::size_t g = 0; g < groups; ++g)
   {
     unsigned crossed = 0;
-    for (std::size_t i = 0; i < caps.size(); ++i)
+    for (std::size_t i = 0; i < all_.size(); ++i)
     {
       const unsigned part = parts_[i * groups + g] & outside_[g];
       crossed |= part;
@@ -66,12 +86,12 @@ void RimFinder::list(const std::vector<BuriedCap>& caps)
       {
         continue;
       }
-      if (places[i] == Unlisted)
+      if (places_[i] == Unlisted)
       {
-        places[i] = static_cast<std::uint32_t>(caps_.size());
-        caps_.push_back({ caps[i].axis.as<float>(), static_cast<float>(caps[i].cosine) });
+        places_[i] = static_cast<std::uint32_t>(caps_.size());
+        caps_.push_back(all_[i]);
       }
-      capOf_.push_back(places[i]);
+      capOf_.push_back(places_[i]);
     }
     if (crossed != 0)
     {
@@ -92,7 +112,7 @@ const TexelRims* copyTo(
   }
   // Side by side, in the order in which they are looked at.
   auto* copy = new (memory.allocate(sizeof(TexelRims), alignof(TexelRims))) TexelRims;
-  copy->outside = copied(memory, rims.outside, groups);
+  copy->outside = rims.areToldApart() ? copied(memory, rims.outside, groups) : nullptr;
   copy->rims = copied(memory, rims.rims, rims.count);
   copy->count = rims.count;
   copy->capOf = copied(memory, rims.capOf, places);

@@ -39,8 +39,10 @@ void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
 }
 
 /// Points of past epochs count by their weights, the present ones for the surface too.
-void SweepTextures::lookAt(const TexelRims& rims, CutSurface& cut) const
+void SweepTextures::lookAt(const TexelRims& known, CutSurface& cut) const
 {
+  // One that was not seen, but is watched.
+  const TexelRims rims = known.areToldApart() ? known : cut.finder.find(records_.texels(), known);
   cut.rims.assign(rims.count * GroupSize, 0.0f);
   for (const SweepEpoch& epoch : records_.epochs())
   {

@@ -2,6 +2,7 @@
 #ifndef po_SweepTextures_h
 #define po_SweepTextures_h
 
+#include "RimFinder.h"
 #include "TextureFormula.h"
 #include "VisibilityRecords.h"
 
@@ -31,11 +32,12 @@ private:
   {
     OutsideSurface surface;
     std::vector<float> weights; ///< [slots] of its points that are outside: what open texels sum to
+    RimFinder finder;
     TexelExposure exposure;
     std::vector<float> rims; ///< [rimGroups][GroupSize] of weights
   };
 
-  void lookAt(const TexelRims& rims, CutSurface& cut) const;
+  void lookAt(const TexelRims& known, CutSurface& cut) const;
   void weigh(const TexelRims& rims, CutSurface& cut) const;
   [[nodiscard]] std::vector<float> subsetWeights(const CutSurface& cut) const;
 

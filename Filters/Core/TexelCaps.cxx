@@ -81,20 +81,34 @@ void clearBuried(const TexelPatterns& patterns, std::size_t group, const CapList
   }
 }
 
+/// Clears the points of a group that lie inside any of the caps.
+inline void clearGroup(const TexelPatterns& patterns, std::size_t pattern, std::size_t group,
+  const CapList& caps, GroupMask* mask)
+{
+  mask[group] = static_cast<GroupMask>(mask[group] & ~insideOf(patterns, pattern, group, caps));
+}
+
 bool clearRims(
   const TexelPatterns& patterns, std::size_t pattern, const TexelRims& rims, GroupMask* mask)
 {
   const std::size_t groups = patterns.groups();
-  for (std::size_t g = 0; g < groups; ++g)
+  const bool apart = rims.areToldApart();
+  for (std::size_t g = 0; apart && g < groups; ++g)
   {
     mask[g] = static_cast<GroupMask>(mask[g] & rims.outside[g]);
   }
-  for (std::size_t rim = 0; rim < rims.count; ++rim)
+  for (std::size_t rim = 0; apart && rim < rims.count; ++rim)
   {
-    const std::size_t g = rims.rims[rim].group;
-    if ((mask[g] & rims.rims[rim].crossed) != 0)
+    if ((mask[rims.rims[rim].group] & rims.rims[rim].crossed) != 0)
     {
-      mask[g] = static_cast<GroupMask>(mask[g] & ~insideOf(patterns, pattern, g, rims.capsOf(rim)));
+      clearGroup(patterns, pattern, rims.rims[rim].group, rims.capsOf(rim), mask);
+    }
+  }
+  for (std::size_t g = 0; !apart && g < groups; ++g)
+  {
+    if (mask[g] != 0)
+    {
+      clearGroup(patterns, pattern, g, rims.capsOf(0), mask);
     }
   }
   unsigned left = 0;

@@ -72,12 +72,12 @@ void VisibilityRecords::prefetch(unsigned sphere) const
 bool VisibilityRecords::clearCovered(unsigned sphere, std::size_t axis, GroupMask* mask) const
 {
   const TexelRims* known = rims(sphere);
-  if (known != nullptr && !intersect(texels_.groups(), known->outside, mask))
+  if (known != nullptr && known->areToldApart())
   {
-    return false;
-  }
-  if (known != nullptr)
-  {
+    if (!intersect(texels_.groups(), known->outside, mask))
+    {
+      return false;
+    }
     hwy::Prefetch(known->rims);
     hwy::Prefetch(known->rims + 8);
     hwy::Prefetch(known->capOf);
@@ -127,7 +127,7 @@ VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
     std::pmr::memory_resource& memory = *memory_.ofThread();
     const TexelRims* known = nullptr;
     // Two threads may make the same at once; both are equal, and one is not used.
-    const TexelRims* made = copyTo(memory, finder.find(texels_, overlaps.caps), texels_.groups());
+    const TexelRims* made = copyTo(memory, finder.list(overlaps.caps), texels_.groups());
     rims_[sphere].compare_exchange_strong(known, made, std::memory_order_acq_rel);
   }
   surface_[sphere].store(surface, std::memory_order_release);
@@ -140,6 +140,22 @@ float* VisibilityRecords::makeSums(std::size_t count)
   auto* sums = memory_.allocate<float>(size);
   std::fill(sums, sums + size, 0.0f);
   return sums;
+}
+
+/// Most spheres that are looked at show points inside others alone; only for those that are seen it
+/// is worth while to tell texels apart.
+void VisibilityRecords::tellTexelsApart(unsigned sphere)
+{
+  const TexelRims* known = rims(sphere);
+  if (known == nullptr || known->areToldApart())
+  {
+    return;
+  }
+  // Two threads may do the same at once; it does not matter whose result stays.
+  thread_local RimFinder finder;
+  std::pmr::memory_resource& memory = *memory_.ofThread();
+  rims_[sphere].store(
+    copyTo(memory, finder.find(texels_, *known), texels_.groups()), std::memory_order_release);
 }
 
 VisibilityRecords::Record& VisibilityRecords::findOrMakeRecord(unsigned sphere)
@@ -164,6 +180,7 @@ void VisibilityRecords::keep(
   {
     return;
   }
+  tellTexelsApart(sphere);
   if (log_)
   {
     log_->keep(sphere, axis, upward, facing, mask);

@@ -93,7 +93,7 @@ public:
   [[nodiscard]] const float* sums(unsigned sphere) const;
   /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
-  /// What overlaps a sphere that was seen; null if nothing does.
+  /// What overlaps a sphere that was looked at, told apart if it was seen; null if nothing does.
   [[nodiscard]] const TexelRims* rims(unsigned sphere) const;
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
@@ -131,6 +131,7 @@ private:
   [[nodiscard]] Surface surfaceOf(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
   [[nodiscard]] float* makeSums(std::size_t count);
+  void tellTexelsApart(unsigned sphere);
   Record& findOrMakeRecord(unsigned sphere);
   void addTo(Record& record, const std::vector<AxisWeights>& axes, std::size_t subset) const;
   [[nodiscard]] bool isAlone(unsigned sphere) const;
