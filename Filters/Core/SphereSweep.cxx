@@ -212,6 +212,8 @@ void SphereSweep::finishBlock()
     const auto all = static_cast<double>(sum.visits + sum.below);
     bool& pay = closedCellsPay_[full ? 1 : 0];
     pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
+    // Without the buried ones less is spared.
+    closedCellsPay_[0] = closedCellsPay_[0] && closedCellsPay_[1];
   }
 }
 

@@ -72,6 +72,8 @@ public:
     const float* weights, const TextureSmoothing& smoothing) const;
 
 private:
+  void fillWhole(const OutsideSurface& surface, const float* sums, const float* weights,
+    float* values, float* shares) const;
   void addParts(const SweepTexels& texels);
   void addIrradiance(
     const SweepTexels& texels, const TexelPatterns& patterns, const Background& background);
@@ -85,6 +87,7 @@ private:
   };
 
   std::size_t groups_;
+  bool isWhole_;                  ///< each texel is one fine texel
   bool uniform_;                  ///< an open surface receives 1 everywhere
   std::vector<float> ones_;       ///< for all points of a group
   std::vector<float> irradiance_; ///< of all points, in the order of TexelPatterns, if not uniform
