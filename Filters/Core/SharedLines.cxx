@@ -15,7 +15,6 @@ namespace
 using Words = ProcessGroup::Words;
 
 constexpr float Steps = 16383;
-constexpr float NoLine = 2;
 
 /// In window depth: rounding shall not hide a line behind what it lies in front of.
 constexpr float DepthTolerance = 5e-7F;
@@ -107,7 +106,7 @@ void resize(int width, int height, PlacedLines& lines)
     image.front.assign(pixels, 0);
     image.inside.assign(pixels, 0);
     image.tileRows.assign(static_cast<std::size_t>(depthTiles(width)) * depthTiles(height), 0);
-    lines.windowDepth.assign(pixels, NoLine);
+    lines.windowDepth.assign(pixels, NoLineDepth);
     lines.process.assign(pixels, 0);
   }
 }
@@ -148,7 +147,7 @@ void readLines(const Words& words, int width, int height, bool placed, PlacedLin
     const auto tile = static_cast<int>(*at & 0xFFFFFFFFU);
     const auto count = static_cast<std::ptrdiff_t>(*at++ >> 32U);
     const int x = tile % columns * DepthTileSize, y = tile / columns * DepthTileSize;
-    std::vector<float> depths(static_cast<std::size_t>(count), NoLine);
+    std::vector<float> depths(static_cast<std::size_t>(count), NoLineDepth);
     if (count > 0 && placed)
     {
       std::memcpy(depths.data(), &*(at + count), depths.size() * sizeof(float));

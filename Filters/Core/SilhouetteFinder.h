@@ -28,6 +28,9 @@
 /// depth like any other.
 namespace po
 {
+/// The window depth of pixels without a line: beyond the far plane, which has 1.
+constexpr float NoLineDepth = 2;
+
 /// The lines of one picture.
 struct SilhouetteImage
 {

@@ -18,8 +18,6 @@
 #define po_SilhouettePixels_cxx
 namespace po
 {
-constexpr float NoLine = 2;
-
 /// What lines are coloured with, and where to.
 struct Coloring
 {
@@ -150,7 +148,7 @@ private:
     if (hn::AllFalse(Tag(), isLine))
     {
       store(hn::Zero(integers), rgba, count);
-      store(number(NoLine), depth, count);
+      store(number(NoLineDepth), depth, count);
       return;
     }
     // Other pixels have any front: they take the first pixel's.
@@ -160,7 +158,7 @@ private:
           hn::RebindMask(integers, isLine), load(lines_.front.data() + first, count));
     const Integers color = colorOf(first, count, strength, front);
     store(hn::IfThenElseZero(hn::RebindMask(integers, isLine), color), rgba, count);
-    store(hn::IfThenElse(isLine, depthOf(first, count, front), number(NoLine)), depth, count);
+    store(hn::IfThenElse(isLine, depthOf(first, count, front), number(NoLineDepth)), depth, count);
   }
 
   [[nodiscard]] Integers colorOf(
@@ -226,7 +224,7 @@ void colorSilhouettes(const SilhouetteImage& lines, const SilhouetteStyle& style
   if (pixels.depth.size() != count || pixels.tileRows.size() != lines.tileRows.size())
   {
     pixels.rgba.assign(4 * count, 0);
-    pixels.depth.assign(count, NoLine);
+    pixels.depth.assign(count, NoLineDepth);
     pixels.tileRows.assign(lines.tileRows.size(), 0);
   }
   const Coloring all{ lines, style, surroundings, pixels };

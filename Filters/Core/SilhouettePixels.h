@@ -22,8 +22,8 @@ constexpr float SilhouetteDarkness = 0.35F;
 /// Lines as pixels to be blended over a picture.
 struct SilhouettePixels
 {
-  std::vector<std::uint8_t> rgba;      ///< alpha is what they cover of a pixel, times the opacity
-  std::vector<float> depth;            ///< window depth of what is in front of the line; 2: no line
+  std::vector<std::uint8_t> rgba; ///< alpha is what they cover of a pixel, times the opacity
+  std::vector<float> depth;       ///< window depth of what is in front of the line, or NoLineDepth
   std::vector<std::uint16_t> tileRows; ///< as in SilhouetteImage
 };
 

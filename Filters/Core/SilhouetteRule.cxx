@@ -18,6 +18,32 @@ constexpr double AutomaticRadii = 2;
 /// Or jumps of this share of the depths.
 constexpr double AutomaticShare = 0.02;
 
+/// As many lines of sight through scattered particles may meet larger jumps.
+constexpr double AutomaticSightLines = 1.0 / 6;
+
+/// The jump that they exceed; 0 if fewer meet any jump at all.
+double jumpOfScattered(const SilhouetteScale& scale)
+{
+  constexpr double Opaque = 50; // free lengths through which nobody sees
+  constexpr int Steps = 20;     // far more than it takes
+  const double length = scale.freeLength - AutomaticRadii * scale.meanRadius;
+  if (!(length > 0))
+  {
+    return 0;
+  }
+  const double through = std::min(Opaque, scale.depthRange / std::sqrt(3) / length);
+  const double unseen = std::exp(-through);
+  const auto excess = [&](double jump)
+  { return std::exp(-jump) - (1 + through - jump) * unseen - AutomaticSightLines; };
+  double jump = 0; // in free lengths
+  // Newton's method, from the left of a convex function that falls.
+  for (int step = 0; step < Steps && excess(jump) > 0; ++step)
+  {
+    jump += excess(jump) / (std::exp(-jump) - unseen);
+  }
+  return length * jump;
+}
+
 bool isLength(double value)
 {
   return value >= 0 && std::isfinite(value);
@@ -55,7 +81,8 @@ std::string faultOf(const SilhouetteParameters& p)
 double automaticThreshold(const SilhouetteScale& scale)
 {
   return LaplacianOfJump *
-    std::max(AutomaticRadii * scale.meanRadius, AutomaticShare * scale.depthRange);
+    std::max({ AutomaticRadii * scale.meanRadius, AutomaticShare * scale.depthRange,
+      jumpOfScattered(scale) });
 }
 
 SilhouetteRule resolve(const SilhouetteParameters& p, const SilhouetteScale& scale)

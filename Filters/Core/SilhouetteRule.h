@@ -100,12 +100,21 @@ struct SilhouetteScale
 {
   double meanRadius = 0; ///< of the particles
   double depthRange = 0; ///< extent of the data, or the spread of the visible depths
+  double freeLength = 0; ///< see meanFreeLength()
 };
 
-/// The automatic Laplacian threshold, from the radii and the depths of the data:
-/// three times the jump of two mean radii, or of a fiftieth of the depths where that is more. Two
-/// radii are what separates a particle from one that lies behind it and does not touch it; the
-/// share of the depths keeps clouds of very many small particles from turning black.
+/// The automatic Laplacian threshold, from what is known of the data: three times the largest of
+/// these jumps.
+/// - Two mean radii: they separate a particle from one that lies behind it and does not touch it.
+/// - A fiftieth of the depths, so that large data sets of small particles show their large steps.
+/// - The jump that one line of sight in six exceeds if particles lie scattered, so that gases do
+/// not
+///   turn black. Such a line, s long, meets its first particle at x and the next one J behind it,
+///   with the densities exp(-x / L) / L and exp(-J / L) / L. So its jump is between J and the
+///   longest there can be, s - x, with the probability
+///   exp(-J / L) - (1 + (s - J) / L) exp(-s / L).
+///   L is what the free length exceeds two mean radii by: what is closer is as good as touching. s
+///   is the edge of a cube whose diagonal are the depths.
 [[nodiscard]] double automaticThreshold(const SilhouetteScale& scale);
 
 [[nodiscard]] SilhouetteRule resolve(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereRenderer.h"
 
+#include "FreeLength.h"
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -89,10 +91,21 @@ Matrix4 localToModel(const SphereCloud& cloud)
 void SphereRenderer::setCloud(SphereCloud cloud)
 {
   cloud_ = std::move(cloud);
+  freeLength_.reset();
   isComplete_ = countsUp(cloud_.sourceIds);
   hidden_.clear();
   scene_.reset();
   forgetFrame();
+}
+
+double SphereRenderer::freeLength() const
+{
+  if (!freeLength_)
+  {
+    freeLength_ =
+      meanFreeLength(cloud_, { static_cast<double>(cloud_.spheres.size()), cloud_.scale });
+  }
+  return *freeLength_;
 }
 
 void SphereRenderer::setHidden(std::vector<std::uint8_t> hidden)

@@ -75,6 +75,9 @@ public:
 
   [[nodiscard]] const SphereCloud& cloud() const { return cloud_; }
 
+  /// meanFreeLength() of the cloud, found when it is first asked for.
+  [[nodiscard]] double freeLength() const;
+
   /// Of each sphere 1 if rays pass it, see hideSpheres(); empty: all are seen. The scene is kept.
   void setHidden(std::vector<std::uint8_t> hidden);
 
@@ -142,6 +145,7 @@ private:
 
   std::shared_ptr<SceneCache> scenes_;
   SphereCloud cloud_;
+  mutable std::optional<double> freeLength_;
   bool isComplete_ = false; ///< is each sphere's source that of its own number?
   std::vector<std::uint8_t> hidden_;
   std::shared_ptr<const SphereScene> scene_;

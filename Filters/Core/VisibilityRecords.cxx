@@ -23,6 +23,12 @@ bool isSliver(const BuriedCap& cap)
 {
   return (1 - cap.cosine) / 2 < SmallestCap;
 }
+
+std::size_t countSet(const std::vector<std::uint8_t>& flags)
+{
+  return static_cast<std::size_t>(
+    std::count_if(flags.begin(), flags.end(), [](std::uint8_t flag) { return flag != 0; }));
+}
 }
 
 VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& order,
@@ -33,26 +39,28 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , order_(order)
   , texels_(texels)
   , seed_(seed)
-  , listed_(listed)
+  , placeOf_(order.size(), NoPlace)
   , surface_(order.size())
   , rims_(order.size())
-  , records_(log ? 0 : order.size())
-  , watched_(order.size(), 0)
+  , records_(log ? 0 : countSet(listed))
+  , watched_(countSet(listed), 0)
   , log_(std::move(log))
 {
   open_.total.assign(texels.slots(), 0.0f);
   open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
   beginEpoch();
+  unsigned places = 0;
   // Particles that are not listed are looked at all the same: what they hide must not depend on who
   // asks.
   for (unsigned sphere = 0; sphere < order.size(); ++sphere)
   {
+    placeOf_[sphere] = listed[sphere] != 0 ? places++ : NoPlace;
     const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
     surface_[sphere] = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
   }
   for (const unsigned sphere : watched)
   {
-    watched_[sphere] = 1;
+    watched_[placeOf_[sphere]] = 1;
   }
 }
 
@@ -65,7 +73,7 @@ void VisibilityRecords::prefetch(unsigned sphere) const
   }
   if (!log_)
   {
-    hwy::Prefetch(&records_[sphere]);
+    hwy::Prefetch(&placeOf_[sphere]);
   }
 }
 
@@ -85,7 +93,7 @@ bool VisibilityRecords::clearCovered(unsigned sphere, std::size_t axis, GroupMas
     hwy::Prefetch(known->caps);
     hwy::Prefetch(known->caps + 4);
   }
-  if (const Record* record = log_ ? nullptr : records_[sphere].load(std::memory_order_relaxed))
+  if (const Record* record = log_ ? nullptr : recordOf(sphere))
   {
     hwy::Prefetch(record);
     hwy::Prefetch(reinterpret_cast<const GroupMask*>(record + 1) + axis * texels_.groups());
@@ -101,7 +109,7 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
     Surface surface = surface_[sphere].load(std::memory_order_acquire);
     if (surface == Surface::Unknown)
     {
-      surface = surfaceOf(sphere);
+      surface = findSurface(sphere);
     }
     if (surface != Surface::Cut)
     {
@@ -113,7 +121,23 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
   return po::clearInside(patterns(), pattern, *known, mask);
 }
 
-VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
+void VisibilityRecords::learn(unsigned sphere, Surface surface)
+{
+  if (surface_[sphere].load(std::memory_order_relaxed) != Surface::Unknown)
+  {
+    return;
+  }
+  if (surface == Surface::Whole || surface == Surface::Buried)
+  {
+    surface_[sphere].store(surface, std::memory_order_release);
+  }
+  else if (surface == Surface::Cut && isListed(sphere))
+  {
+    findSurface(sphere);
+  }
+}
+
+VisibilityRecords::Surface VisibilityRecords::findSurface(unsigned sphere)
 {
   thread_local Overlaps overlaps;
   scene_.overlaps.find(order_.source(sphere), overlaps);
@@ -158,10 +182,10 @@ void VisibilityRecords::tellTexelsApart(unsigned sphere)
     copyTo(memory, finder.find(texels_, *known), texels_.groups()), std::memory_order_release);
 }
 
-VisibilityRecords::Record& VisibilityRecords::findOrMakeRecord(unsigned sphere)
+VisibilityRecords::Record& VisibilityRecords::findOrMakeRecord(unsigned place)
 {
-  std::atomic<Record*>& place = records_[sphere];
-  Record* known = place.load(std::memory_order_acquire);
+  std::atomic<Record*>& record = records_[place];
+  Record* known = record.load(std::memory_order_acquire);
   if (known != nullptr)
   {
     return *known;
@@ -169,24 +193,24 @@ VisibilityRecords::Record& VisibilityRecords::findOrMakeRecord(unsigned sphere)
   // Two threads may make the same at once; both are equal, and one is not used.
   Record* made = new (memory_.allocate<Record>(1))
     Record{ memory_.allocate<GroupMask>(AxesPerBlock * texels_.groups()), makeSums(1),
-      watched_[sphere] != 0 ? makeSums(ErrorSubsets) : nullptr };
-  return *(place.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
+      watched_[place] != 0 ? makeSums(ErrorSubsets) : nullptr };
+  return *(record.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 
 void VisibilityRecords::keep(
   unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask)
 {
-  if (listed_[sphere] == 0)
+  tellTexelsApart(sphere);
+  if (!isListed(sphere))
   {
     return;
   }
-  tellTexelsApart(sphere);
   if (log_)
   {
     log_->keep(sphere, axis, upward, facing, mask);
     return;
   }
-  Record& record = findOrMakeRecord(sphere);
+  Record& record = findOrMakeRecord(placeOf_[sphere]);
   const std::size_t groups = texels_.groups();
   GroupMask* kept = record.masks + axis * groups;
   if (record.seen[axis] == 0)
@@ -219,25 +243,28 @@ void VisibilityRecords::addBlock(const std::vector<AxisWeights>& axes, std::size
     return;
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, records_.size(), 64),
-    [&](const tbb::blocked_range<std::size_t>& spheres)
+    [&](const tbb::blocked_range<std::size_t>& places)
     {
-      for (std::size_t sphere = spheres.begin(); sphere != spheres.end(); ++sphere)
+      constexpr std::size_t ahead = 4;
+      for (std::size_t place = places.begin(); place != places.end(); ++place)
       {
-        if (sphere + 4 < spheres.end())
-        {
-          if (const Record* next = records_[sphere + 4].load(std::memory_order_relaxed))
-          {
-            hwy::Prefetch(next);
-            hwy::Prefetch(next->sums);
-            hwy::Prefetch(next->masks);
-          }
-        }
-        if (Record* record = records_[sphere].load(std::memory_order_relaxed))
+        prefetchRecord(std::min(place + ahead, places.end() - 1));
+        if (Record* record = records_[place].load(std::memory_order_relaxed))
         {
           addTo(*record, axes, subset);
         }
       }
     });
+}
+
+void VisibilityRecords::prefetchRecord(std::size_t place) const
+{
+  if (const Record* record = records_[place].load(std::memory_order_relaxed))
+  {
+    hwy::Prefetch(record);
+    hwy::Prefetch(record->sums);
+    hwy::Prefetch(record->masks);
+  }
 }
 
 void VisibilityRecords::addTo(
@@ -281,7 +308,7 @@ void VisibilityRecords::beginEpoch()
 
 const VisibilityRecords::Record* VisibilityRecords::recordOf(unsigned sphere) const
 {
-  return records_[sphere].load(std::memory_order_acquire);
+  return isListed(sphere) ? records_[placeOf_[sphere]].load(std::memory_order_acquire) : nullptr;
 }
 
 const float* VisibilityRecords::sums(unsigned sphere) const
@@ -330,9 +357,9 @@ bool VisibilityRecords::isAlone(unsigned sphere) const
 std::uint64_t VisibilityRecords::countListed(Surface surface) const
 {
   std::uint64_t count = 0;
-  for (std::size_t sphere = 0; sphere < listed_.size(); ++sphere)
+  for (unsigned sphere = 0; sphere < placeOf_.size(); ++sphere)
   {
-    count += listed_[sphere] != 0 && surface_[sphere].load(std::memory_order_relaxed) == surface;
+    count += isListed(sphere) && surface_[sphere].load(std::memory_order_relaxed) == surface;
   }
   return count;
 }

@@ -35,7 +35,7 @@ struct SweepEpoch
   std::vector<float> weights; ///< of an open point, in the order of TexelPatterns
 };
 
-/// The visibility of spheres, in memory that is taken when a sphere is first seen: at 16 x 16
+/// The visibility of the listed spheres, in memory that is taken when one is first seen: at 16 x 16
 /// texels 1.25 KiB, some hundred bytes more where others overlap it, and 4 KiB more where it is
 /// watched. Out of core the visibility is in a file, and only what overlaps a sphere takes memory.
 ///
@@ -44,6 +44,17 @@ struct SweepEpoch
 class VisibilityRecords
 {
 public:
+  /// What is known of a sphere's surface.
+  enum class Surface : std::uint8_t
+  {
+    Unknown,
+    Whole, ///< no part is inside others
+    Cut,
+    Buried,
+    Alone,   ///< open all over, not swept
+    Occluder ///< no particle: never looked at, since it only occludes
+  };
+
   /// @param listed flags by sphere: whose visibility is asked for
   /// @param alone flags by sphere: known to be open all over
   /// @param watched the spheres that error bars come from
@@ -62,16 +73,29 @@ public:
   [[nodiscard]] const SweepTexels& texels() const { return texels_; }
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
+  /// Of the SweepScene.
+  [[nodiscard]] std::size_t spheres() const { return placeOf_.size(); }
+  [[nodiscard]] bool isListed(unsigned sphere) const { return placeOf_[sphere] != NoPlace; }
+
   /// Fetches what clearCovered() needs of a sphere, if it has been seen, while other work goes on.
   void prefetch(unsigned sphere) const;
 
   /// Clears the bits of texels that are wholly inside, if it is known already what overlaps the
-  /// sphere; false if none is left.
+  /// sphere; false if none is left. Fetches what clearInside() and keep() need then.
   bool clearCovered(unsigned sphere, std::size_t axis, GroupMask* mask) const;
 
   /// Clears the bits of points that lie inside other spheres, for a sphere that is seen, maybe for
   /// the first time; false if none is left.
   bool clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask);
+
+  /// For a sphere that is not known to show anything it is not found out.
+  [[nodiscard]] Surface surface(unsigned sphere) const
+  {
+    return surface_[sphere].load(std::memory_order_relaxed);
+  }
+  /// Takes what another process has found out. What cuts a sphere is found again, if it is listed
+  /// here, or else when that is needed. Threads may call this at once.
+  void learn(unsigned sphere, Surface surface);
 
   /// Keeps what a direction of axis `axis` of the block sees of a sphere, beside what the other
   /// direction does.
@@ -103,17 +127,7 @@ public:
   [[nodiscard]] std::uint64_t alone() const;
 
 private:
-  /// What is known of a sphere's surface.
-  enum class Surface : std::uint8_t
-  {
-    Unknown,
-    Whole, ///< no part is inside others
-    Cut,
-    Buried,
-    Alone,   ///< open all over, not swept
-    Occluder ///< no particle: never looked at, since it only occludes
-  };
-
+  static constexpr unsigned NoPlace = ~0u;
   /// Points of a texel that rims cross, together: 512.
   static constexpr std::size_t MostEpochs = 16;
 
@@ -128,11 +142,12 @@ private:
   };
 
   void beginEpoch();
-  [[nodiscard]] Surface surfaceOf(unsigned sphere);
+  Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
   [[nodiscard]] float* makeSums(std::size_t count);
   void tellTexelsApart(unsigned sphere);
-  Record& findOrMakeRecord(unsigned sphere);
+  void prefetchRecord(std::size_t place) const;
+  Record& findOrMakeRecord(unsigned place);
   void addTo(Record& record, const std::vector<AxisWeights>& axes, std::size_t subset) const;
   [[nodiscard]] bool isAlone(unsigned sphere) const;
   [[nodiscard]] const Record* recordOf(unsigned sphere) const;
@@ -141,16 +156,16 @@ private:
   const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
-  std::vector<std::uint8_t> listed_; ///< flags by sphere
+  std::vector<unsigned> placeOf_; ///< by sphere: its place among the listed ones, or NoPlace
   std::vector<SweepEpoch> epochs_;
   std::size_t epoch_ = 0; ///< the present one
   OpenWeights open_;
   RecordMemory memory_;
   std::vector<std::atomic<Surface>> surface_;       ///< by sphere
   std::vector<std::atomic<const TexelRims*>> rims_; ///< by sphere: of cut ones
-  std::vector<std::atomic<Record*>> records_;       ///< by sphere; empty out of core
-  std::vector<std::uint8_t> watched_;               ///< flags by sphere
-  std::unique_ptr<LoggedVisibility> log_;           ///< null: in chunks
+  std::vector<std::atomic<Record*>> records_;       ///< by place; empty out of core
+  std::vector<std::uint8_t> watched_;               ///< flags by place
+  std::unique_ptr<LoggedVisibility> log_;           ///< null: in records
 };
 }
 

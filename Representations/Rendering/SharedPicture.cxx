@@ -72,14 +72,14 @@ SilhouetteScale scaleOf(const std::vector<vtkProp*>& props)
 
 std::optional<SilhouetteScale> agreedScale(const SilhouetteOffer& own, const ProcessGroup& group)
 {
-  constexpr std::size_t Words = 4;
+  constexpr std::size_t Words = 5;
   const auto size =
     static_cast<std::uint64_t>(own.width) << 32U | static_cast<std::uint64_t>(own.height);
   ProcessGroup::Words all;
   try
   {
-    all = group.gather(
-      { own.canShare ? 1U : 0U, size, wordOf(own.scale.meanRadius), wordOf(own.scale.depthRange) });
+    all = group.gather({ own.canShare ? 1U : 0U, size, wordOf(own.scale.meanRadius),
+      wordOf(own.scale.depthRange), wordOf(own.scale.freeLength) });
   }
   catch (const WorkStopped&)
   {
@@ -92,6 +92,7 @@ std::optional<SilhouetteScale> agreedScale(const SilhouetteOffer& own, const Pro
     agreed = agreed && all[at] == 1 && all[at + 1] == all[1];
     scale.meanRadius = std::max(scale.meanRadius, doubleOf(all[at + 2]));
     scale.depthRange = std::max(scale.depthRange, doubleOf(all[at + 3]));
+    scale.freeLength = std::max(scale.freeLength, doubleOf(all[at + 4]));
   }
   return agreed ? std::optional(scale) : std::nullopt;
 }

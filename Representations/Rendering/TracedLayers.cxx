@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace po
 {
@@ -57,6 +58,7 @@ TracedDepth depthOf(const std::vector<TracedActor>& actors)
 std::optional<SilhouetteScale> scaleOf(const std::vector<vtkActor*>& actors)
 {
   double radii = 0, count = 0, largest = 0;
+  double freeLength = std::numeric_limits<double>::infinity();
   for (vtkActor* actor : actors)
   {
     auto* mapper = vtkRayTracedSphereMapper::SafeDownCast(actor->GetMapper());
@@ -65,15 +67,18 @@ std::optional<SilhouetteScale> scaleOf(const std::vector<vtkActor*>& actors)
       continue;
     }
     const double* whole = mapper->GetWholeSet();
-    const SphereCloud& cloud = mapper->GetSphereRenderer().cloud();
+    const SphereRenderer& renderer = mapper->GetSphereRenderer();
+    const SphereCloud& cloud = renderer.cloud();
     const double scale = scaleOf(actor);
     const bool isShared = whole[0] > 0;
     const double particles = isShared ? whole[0] : static_cast<double>(cloud.spheres.size());
     radii += particles * scale * (isShared ? whole[1] : cloud.scale);
     count += particles;
     largest = std::max(largest, isShared ? scale * whole[2] : actor->GetLength());
+    freeLength = std::min(freeLength, scale * (isShared ? whole[3] : renderer.freeLength()));
   }
-  return count > 0 ? std::optional(SilhouetteScale{ radii / count, largest }) : std::nullopt;
+  return count > 0 ? std::optional(SilhouetteScale{ radii / count, largest, freeLength })
+                   : std::nullopt;
 }
 
 std::vector<vtkActor*> actorsOf(const std::vector<TracedActor>& traced)

@@ -31,8 +31,8 @@ struct TracedActor
 [[nodiscard]] TracedDepth depthOf(const std::vector<TracedActor>& actors);
 
 /// Mean radius over all particles, those of other processes included (see
-/// vtkRayTracedSphereMapper::SetWholeSet), and the largest diagonal of an actor's bounds, in world
-/// units. Nothing if there are no particles.
+/// vtkRayTracedSphereMapper::SetWholeSet), the largest diagonal of an actor's bounds, and the least
+/// free length of an actor's spheres, in world units. Nothing if there are no particles.
 [[nodiscard]] std::optional<SilhouetteScale> scaleOf(const std::vector<vtkActor*>& actors);
 
 [[nodiscard]] std::vector<vtkActor*> actorsOf(const std::vector<TracedActor>& traced);

@@ -33,7 +33,8 @@
  * the last frame that was not a tile: lines continue across tiles.
  *
  * An automatic threshold is three times the jump of two mean particle radii, or of 1/50 of the
- * diagonal of the particles' bounds where that is more; without particles 1/50 of the spread of the
+ * diagonal of the particles' bounds, or, among scattered particles, of the jump that one line of
+ * sight in six exceeds, whichever is the largest; without particles 1/50 of the spread of the
  * visible depths.
  *
  * Errors (the delegate is drawn, lines are not): a parameter out of its range, ThresholdUnit 1

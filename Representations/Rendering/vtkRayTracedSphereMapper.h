@@ -153,10 +153,11 @@ public:
 
   ///@{
   /// Where several processes draw parts of one set of particles: the number of all of them, their
-  /// mean radius, and the diagonal of their bounds, in the actor's coordinates. Automatic
-  /// thresholds of silhouettes go by it. Default 0, 0, 0: this mapper has the whole set.
-  vtkSetVector3Macro(WholeSet, double);
-  vtkGetVector3Macro(WholeSet, double);
+  /// mean radius, the diagonal of their bounds, and how far a line of sight goes in the mean from
+  /// one particle to the next, in the actor's coordinates. Automatic thresholds of silhouettes go
+  /// by it. Default 0, 0, 0, 0: this mapper has the whole set.
+  vtkSetVector4Macro(WholeSet, double);
+  vtkGetVector4Macro(WholeSet, double);
   ///@}
 
   /// The last frame that was drawn, rows from the bottom, with the point arrays RGBA (uint8), Z
@@ -242,7 +243,7 @@ private:
   int SamplesPerPixel = 1;
   bool Progressive = false;
   double InteractiveRate = 15;
-  double WholeSet[3] = { 0, 0, 0 };
+  double WholeSet[4] = { 0, 0, 0, 0 };
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

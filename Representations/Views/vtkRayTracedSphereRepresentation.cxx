@@ -2,6 +2,7 @@
 #include "vtkRayTracedSphereRepresentation.h"
 
 #include "ControllerGroup.h"
+#include "FreeLength.h"
 #include "GatheredParticles.h"
 #include "MapperCropping.h"
 #include "SilhouetteVisibility.h"
@@ -104,7 +105,9 @@ void vtkRayTracedSphereRepresentation::ShareExtent()
     const po::WholeSet all = po::wholeSetOf({ static_cast<double>(cloud.spheres.size()),
                                               cloud.scale, vtkBoundingBox(this->Internal->Bounds) },
       group);
-    this->Mapper->SetWholeSet(all.particles, all.meanRadius, all.bounds.GetDiagonalLength());
+    const double freeLength = po::meanFreeLength(cloud, { all.particles, all.meanRadius }, group);
+    this->Mapper->SetWholeSet(
+      all.particles, all.meanRadius, all.bounds.GetDiagonalLength(), freeLength);
   }
 }
 

@@ -12,14 +12,17 @@
 /// - the default display with hard shadows, and
 /// - the default display with four rays a pixel.
 /// Wall-clock times show how lines scale over threads. Without particles the frame is empty.
+/// The floor: to read once, and do nothing else with, the depths of the tiles that may have lines.
 ///
 /// Shared/FAMILY/PARTICLES/PROCESSES/SLABS: the particles are divided over processes, played by
 /// threads, by turns or into slabs. CPU time of all of them together, with what one process takes
 /// alone in the same iteration, and bytes that are handed from process to process.
 
+#include "FreeLength.h"
 #include "SharedSilhouettes.h"
 #include "SilhouettePixels.h"
 #include "SilhouetteRims.h"
+#include "SilhouetteTiles.h"
 #include "SphereRenderer.h"
 #include "SyntheticSpheres.h"
 #include "ThreadGroup.h"
@@ -152,6 +155,33 @@ Camera viewOf(const SphereCloud& cloud, double extent)
   return { worldToEye, eyeToClip, Width, Height };
 }
 
+/// Reads the depths of the tiles that may have lines.
+void readDepths(const TracedFrame& frame, const SilhouetteRule& rule, SilhouetteImage& nothing)
+{
+  const std::vector<int> tiles = tilesToSearch(frame.tiles, rule, nothing, true);
+  const int columns = depthTiles(frame.width);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 32),
+    [&](const tbb::blocked_range<std::size_t>& part)
+    {
+      double farthest = 0;
+      for (std::size_t at = part.begin(); at < part.end(); ++at)
+      {
+        const int x = tiles[at] % columns * DepthTileSize;
+        const int y = tiles[at] / columns * DepthTileSize;
+        for (int j = y; j < std::min(y + DepthTileSize, frame.height); ++j)
+        {
+          const double* row = frame.t.data() + static_cast<std::ptrdiff_t>(j) * frame.width;
+          // One number of each cache line.
+          for (int i = x; i < std::min(x + DepthTileSize, frame.width); i += 8)
+          {
+            farthest = std::max(farthest, row[i]);
+          }
+        }
+      }
+      benchmark::DoNotOptimize(farthest);
+    });
+}
+
 void lines(benchmark::State& state, const std::string& family)
 {
   const auto count = static_cast<std::size_t>(state.range(0));
@@ -163,7 +193,7 @@ void lines(benchmark::State& state, const std::string& family)
   camera.worldToEye[3] += count > 0 ? 0 : 1e3; // out of sight
   SilhouetteParameters parameters;
   parameters.samples = static_cast<int>(state.range(1));
-  const SilhouetteRule rule = resolve(parameters, { cloud.scale, 2 * extent });
+  const double meanRadius = cloud.scale;
 
   const Textures textures(cloud.spheres.size());
   Style direct, display, shadowed;
@@ -176,16 +206,26 @@ void lines(benchmark::State& state, const std::string& family)
   const bool isSmooth = parameters.samples > 1;
   SphereRenderer renderer;
   renderer.setCloud(std::move(cloud));
+  const SilhouetteRule rule =
+    resolve(parameters, { meanRadius, 2 * extent, renderer.freeLength() });
   SilhouetteImage image;
   SilhouettePixels pixels;
   SilhouetteCounters counters;
-  Spent tracing, shadingDirect, shadingDisplay, search, coloring, shadows, samples;
-  const auto iterate = [&]
+  SilhouetteImage nothing;
+  nothing.width = Width;
+  nothing.height = Height;
+  nothing.tileRows.assign(static_cast<std::size_t>(depthTiles(Width)) * depthTiles(Height), 0);
+  Spent tracing, shadingDirect, shadingDisplay, search, coloring, shadows, samples, reading;
+  const auto makeFrame = [&]
   {
     camera.worldToEye[3] += 1e-9 * extent; // a new view each time: nothing is kept
     tracing.measure([&] { benchmark::DoNotOptimize(renderer.trace(camera, Identity)); });
     shadingDirect.measure([&] { renderer.shade(direct); });
     shadingDisplay.measure([&] { renderer.shade(display); });
+  };
+  const auto iterate = [&]
+  {
+    makeFrame();
     const TracedFrame& frame = renderer.frame();
     search.measure(
       [&]
@@ -210,6 +250,8 @@ void lines(benchmark::State& state, const std::string& family)
   for (auto _ : state)
   {
     iterate();
+    makeFrame(); // so that no depth is in the cache
+    reading.measure([&] { readDepths(renderer.frame(), rule, nothing); });
   }
   const auto covered = std::count_if(
     image.strength.begin(), image.strength.end(), [](float strength) { return strength > 0; });
@@ -218,6 +260,7 @@ void lines(benchmark::State& state, const std::string& family)
   state.counters["display_cpu"] = display_cpu;
   state.counters["cheapest_cpu"] = cheapest_cpu;
   state.counters["lines_cpu"] = search.cpu();
+  state.counters["floor_cpu"] = reading.cpu();
   state.counters["coloring_cpu"] = coloring.cpu();
   state.counters["display_%"] = 100 * search.cpu() / display_cpu;
   state.counters["colored_%"] = 100 * (search.cpu() + coloring.cpu()) / display_cpu;
@@ -273,7 +316,8 @@ void shared(benchmark::State& state, const std::string& family)
   const SphereCloud cloud = makeCloud(family, static_cast<std::size_t>(state.range(0)));
   const double extent = extentOf(cloud);
   const Camera camera = viewOf(cloud, extent);
-  const SilhouetteRule rule = resolve({}, { cloud.scale, 2 * extent });
+  const ParticleSet set{ static_cast<double>(cloud.spheres.size()), cloud.scale };
+  const SilhouetteRule rule = resolve({}, { cloud.scale, 2 * extent, meanFreeLength(cloud, set) });
   const std::vector<int> owner = divide(cloud, processes, state.range(2) != 0);
   const auto whole = traceOwn(cloud, std::vector<int>(owner.size(), 0), 0, camera);
   std::vector<std::unique_ptr<SphereRenderer>> parts;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExrTestSupport.h"
 
+#include "vtkRenderedLayersReader.h"
 #include "vtkRenderedLayersWriter.h"
 
 #include "vtkDoubleArray.h"
@@ -19,6 +20,8 @@
 #include <ImfInputFile.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -206,6 +209,75 @@ TEST(RenderedLayers, OtherIntegersAreLeftOutWithAWarning)
   EXPECT_EQ(writer->Write(), 1);
   EXPECT_TRUE(oneMessage(messages.warnings, "counts"));
   EXPECT_EQ(channelNames(folder.file("a.exr")), std::set<std::string>{ "Z" });
+}
+
+TEST(RenderedLayers, ComeBackFromTheFile)
+{
+  TemporaryFolder folder;
+  Image image = emptyImage(3, 2);
+  auto depth = addArray<vtkFloatArray>(image, "Z", 1);
+  auto normal = addArray<vtkFloatArray>(image, "N", 3);
+  auto ids = addArray<vtkIntArray>(image, "id", 1);
+  for (int pixel = 0; pixel < 6; ++pixel)
+  {
+    depth->SetValue(pixel, pixel == 4 ? 1e10F : 0.5F + static_cast<float>(pixel));
+    normal->SetTuple3(pixel, pixel, -pixel, 0.25);
+    ids->SetValue(pixel, pixel - 1);
+  }
+  ASSERT_EQ(write(image, folder.file("a.exr")), 1);
+
+  vtkNew<vtkRenderedLayersReader> reader;
+  Messages messages(reader);
+  reader->SetFileName(folder.file("a.exr").c_str());
+  for (const double from : { 0.0, 1e9 })
+  {
+    reader->SetBackgroundFrom(from);
+    reader->Update();
+    vtkImageData* read = reader->GetOutput();
+    ASSERT_EQ(read->GetDimensions()[0], 3);
+    ASSERT_EQ(read->GetDimensions()[1], 2);
+    vtkPointData* layers = read->GetPointData();
+    EXPECT_EQ(layers->GetNumberOfArrays(), 5);
+    EXPECT_EQ(layers->GetScalars(), layers->GetArray("Z"));
+    EXPECT_EQ(layers->GetArray("id")->GetDataType(), VTK_UNSIGNED_INT);
+    for (int pixel = 0; pixel < 6; ++pixel)
+    {
+      const bool isOpen = from > 0 && pixel == 4;
+      EXPECT_EQ(layers->GetArray("Z")->GetComponent(pixel, 0),
+        isOpen ? std::numeric_limits<double>::infinity() : depth->GetValue(pixel));
+      EXPECT_EQ(layers->GetArray("N.Y")->GetComponent(pixel, 0), -pixel);
+      EXPECT_EQ(layers->GetArray("id")->GetComponent(pixel, 0),
+        pixel == 0 ? 4294967295.0 : static_cast<double>(pixel - 1));
+    }
+  }
+  EXPECT_TRUE(messages.errors.empty());
+}
+
+TEST(RenderedLayers, WhatCannotBeReadIsOneError)
+{
+  TemporaryFolder folder;
+  const auto errorOfReading = [](const std::string& fileName)
+  {
+    vtkNew<vtkRenderedLayersReader> reader;
+    Messages messages(reader);
+    reader->SetFileName(fileName.c_str());
+    reader->Update();
+    EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), 0);
+    EXPECT_EQ(messages.errors.size(), 1U);
+    return messages.errors.empty() ? std::string() : messages.errors.front();
+  };
+  EXPECT_HAS(errorOfReading(""), "set FileName");
+  EXPECT_HAS(errorOfReading(folder.file("none.exr")), "none.exr");
+  std::ofstream(folder.file("text.exr")) << "no image";
+  EXPECT_HAS(errorOfReading(folder.file("text.exr")), "text.exr");
+
+  Image image = emptyImage(64, 64);
+  addArray<vtkFloatArray>(image, "Z", 1);
+  ASSERT_EQ(write(image, folder.file("a.exr")), 1);
+  std::ifstream whole(folder.file("a.exr"), std::ios::binary);
+  const std::string bytes{ std::istreambuf_iterator<char>(whole), {} };
+  std::ofstream(folder.file("cut.exr"), std::ios::binary) << bytes.substr(0, bytes.size() - 20);
+  EXPECT_HAS(errorOfReading(folder.file("cut.exr")), "cut.exr");
 }
 
 TEST(RenderedLayers, WhatCannotBeWrittenIsAnError)

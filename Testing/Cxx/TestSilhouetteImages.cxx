@@ -173,6 +173,12 @@ TEST(SilhouetteRule, ScalesWithTheData)
   {
     EXPECT_DOUBLE_EQ(po::automaticThreshold({ 2 * scale, 50 * scale }), 12 * scale);
     EXPECT_DOUBLE_EQ(po::automaticThreshold({ 2 * scale, 500 * scale }), 30 * scale);
+    // A gas; so few particles that hardly one hides another; particles that touch.
+    const double gas = po::automaticThreshold({ scale, 8000 * scale, 102 * scale });
+    EXPECT_NEAR(gas / scale, 300 * std::log(6.0), 1e-9);
+    EXPECT_DOUBLE_EQ(po::automaticThreshold({ scale, 60 * scale, 1000 * scale }), 6 * scale);
+    EXPECT_DOUBLE_EQ(po::automaticThreshold({ scale, 60 * scale, Infinity }), 6 * scale);
+    EXPECT_DOUBLE_EQ(po::automaticThreshold({ scale, 60 * scale, 3 * scale }), 6 * scale);
     po::SilhouetteParameters parameters;
     parameters.unit = po::SilhouetteUnit::Radii;
     parameters.threshold = 6;

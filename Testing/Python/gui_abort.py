@@ -4,17 +4,8 @@ Run by test_abort.py inside `paraview`."""
 import os
 import traceback
 
+from gui_notes import note
 from paraview.simple import *
-
-OUTPUT = os.environ["PARTICLEOCCLUSION_TEST_OUTPUT"]
-
-
-def note(name, text):
-    """At once as a whole: the test reads it as soon as it is there."""
-    path = os.path.join(OUTPUT, name)
-    with open(path + ".part", "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(path + ".part", path)
 
 
 def session():

@@ -6,20 +6,11 @@ import os
 import traceback
 
 import numpy
+from gui_notes import note
 from paraview.modules.vtkRemotingMisc import vtkSMTooltipSelectionPipeline
 from paraview.simple import *
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import reference
-
-OUTPUT = os.environ["PARTICLEOCCLUSION_TEST_OUTPUT"]
-
-
-def note(name, text):
-    """At once as a whole: the test reads it as soon as it is there."""
-    path = os.path.join(OUTPUT, name)
-    with open(path + ".part", "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(path + ".part", path)
 
 
 def look_at(view, particles, point):

@@ -28,7 +28,7 @@ def main():
         begun, outcome, log = (os.path.join(folder, name) for name in ("begun", "outcome", "log.txt"))
         with open(log, "w", encoding="utf-8") as file, screen.Screen(WIDTH, HEIGHT, folder) as display:
             display.open_window(sys.argv[1], f"--script={os.path.join(HERE, 'gui_abort.py')}", log=file,
-                                PARTICLEOCCLUSION_TEST_OUTPUT=folder,
+                                PYTHONPATH=HERE, PARTICLEOCCLUSION_TEST_OUTPUT=folder,
                                 PARTICLEOCCLUSION_TEST_DATA=os.path.join(HERE, "..", "..", "Data"))
             if display.wait_for(begun) is not None:
                 stop_bake(display, outcome)

@@ -35,7 +35,7 @@ def main():
         with open(log, "w", encoding="utf-8") as file, screen.Screen(WIDTH, HEIGHT, folder) as display:
             display.open_window(sys.argv[1], f"--script={os.path.join(HERE, 'gui_hover.py')}",
                                 f"--test-script={os.path.join(HERE, 'gui_hover.xml')}", log=file,
-                                PARTICLEOCCLUSION_TEST_OUTPUT=folder,
+                                PYTHONPATH=HERE, PARTICLEOCCLUSION_TEST_OUTPUT=folder,
                                 PARTICLEOCCLUSION_TEST_DATA=os.path.join(HERE, "..", "..", "Data"))
             begun = display.wait_for(os.path.join(folder, "begun"))
             passed = begun == "" and all(
