@@ -65,9 +65,20 @@ public:
 private:
   void addParticle(const float* values, const float* shares)
   {
+    const bool oneValue = settings_.storage == Storage::OneValue;
+    if (std::all_of(values, values + texture_.size(), [](float value) { return value == 0; }))
+    {
+      mean_.push_back(0);
+      textures_.addDark();
+      if (oneValue)
+      {
+        std::fill(texture_.begin(), texture_.end(), 0.0f);
+        addSquaresFrom(0, shares);
+      }
+      return;
+    }
     mean_.push_back(meanOutside(values, shares));
     fillTexture(values, shares);
-    const bool oneValue = settings_.storage == Storage::OneValue;
     if (oneValue)
     {
       addSquaresFrom(mean_.back(), shares);

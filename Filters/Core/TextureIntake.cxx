@@ -52,6 +52,17 @@ void TextureIntake::add(const float* texture, const float* shares)
                           : linear_.insert({ texture, weigh ? weights_->of(shares) : nullptr }));
 }
 
+void TextureIntake::addDark()
+{
+  if (dark_)
+  {
+    rowOf_.push_back(rowOf_[*dark_]);
+    return;
+  }
+  dark_ = rowOf_.size();
+  add(std::vector<float>(linear_.texelsPerRow(), 0.0f).data(), nullptr); // one value: not weighed
+}
+
 void TextureIntake::beginBytes()
 {
   bytes_.emplace(linear_.resolution(), brightest_, particles_);

@@ -30,8 +30,11 @@ public:
   [[nodiscard]] static bool weighsTexels(const BakeSettings& settings);
 
   /// The texture of the next particle: T x T texels, or with Storage::OneValue one.
-  /// @param shares [T * T] of the texels' area outside other particles
+  /// @param shares [T * T] of the texels' area outside other particles; not read of one value
   void add(const float* texture, const float* shares);
+
+  /// The same for one of zeros: that of a particle that no light reaches.
+  void addDark();
 
   /// Brings what was taken into the form that the settings ask for.
   /// @param noise see storeTextures
@@ -50,6 +53,7 @@ private:
   std::optional<ByteTable> bytes_;      ///< in place of the linear ones
   std::optional<TexelWeights> weights_; ///< of storages that weigh texels
   std::vector<std::int32_t> rowOf_;
+  std::optional<std::size_t> dark_; ///< place of a particle that no light reaches
 };
 }
 
