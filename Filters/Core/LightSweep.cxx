@@ -24,7 +24,8 @@ LightSweep::LightSweep(const BakeScene& scene, const std::vector<unsigned>& part
   , alone_(order_.size(), 0)
   , records_(scene, order_, texels, seed, order_.flagsOf(particles), alone_, {})
 {
-  SphereSweep sweep(order_, white_, distance, records_, exactSkips(), alone_, AxisWays::Forward);
+  SphereSweep sweep(
+    order_, white_, distance, records_, exactSkips(), alone_, scene.group, AxisWays::Forward);
   progress.begin(2 * TexelPatterns::Count * order_.size(), "Sweep along the light");
   // Points take turns: each serves one of the axes, which are all the same.
   sweep.run(std::vector<Vec3d>(TexelPatterns::Count, direction), progress);

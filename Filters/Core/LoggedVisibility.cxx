@@ -8,7 +8,6 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <bitset>
 
 namespace po
 {
@@ -40,47 +39,6 @@ std::size_t chooseBufferWords(std::size_t parts)
   const auto threads = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   return std::clamp(
     GatheredWords / (threads * std::max<std::size_t>(1, parts)), LeastBuffer, MostBuffer);
-}
-
-/// In the file a mask is: its place in the part, and the direction; bits by group that are set
-/// where some of the facing texels are hidden, and some are not; bits where none is hidden; and
-/// the groups of the first kind.
-std::size_t wordsOfBits(std::size_t groups)
-{
-  return (groups + 15) / 16;
-}
-
-bool isSet(const std::uint16_t* bits, std::size_t group)
-{
-  return (bits[group / 16] >> (group % 16) & 1) != 0;
-}
-
-void set(std::uint16_t* bits, std::size_t group)
-{
-  bits[group / 16] = static_cast<std::uint16_t>(bits[group / 16] | 1u << (group % 16));
-}
-
-/// Words of a mask behind its place.
-std::size_t wordsBehind(const std::uint16_t* bits, std::size_t wordsOfBits)
-{
-  std::size_t words = 2 * wordsOfBits;
-  for (std::size_t i = 0; i < wordsOfBits; ++i)
-  {
-    words += std::bitset<16>(bits[i]).count();
-  }
-  return words;
-}
-
-void decode(const std::uint16_t* bits, const std::vector<GroupMask>& facing, GroupMask* mask)
-{
-  const std::size_t size = wordsOfBits(facing.size());
-  const std::uint16_t* open = bits + size;
-  const std::uint16_t* part = open + size;
-  for (std::size_t g = 0; g < facing.size(); ++g)
-  {
-    const GroupMask whole = isSet(open, g) ? facing[g] : GroupMask(0);
-    mask[g] = isSet(bits, g) ? *part++ : whole;
-  }
 }
 }
 
@@ -137,31 +95,15 @@ void LoggedVisibility::write(std::size_t place, std::uint32_t axis, bool upward,
 {
   const std::size_t part = place / placesPerPart_;
   Buffer& buffer = buffers_.local()[part];
-  const std::size_t groups = texels_.groups();
-  const std::size_t size = wordsOfBits(groups);
-  if (buffer.axis != axis || buffer.words.size() + 1 + 2 * size + groups > bufferWords_)
+  if (buffer.axis != axis ||
+    buffer.words.size() + 1 + mostWordsOfMask(texels_.groups()) > bufferWords_)
   {
     flush(part, buffer);
     buffer.axis = axis;
   }
-  Words& words = buffer.words;
-  words.push_back(static_cast<std::uint16_t>(place % placesPerPart_ | (upward ? Upward : 0)));
-  const std::size_t first = words.size();
-  words.resize(first + 2 * size, 0);
-  for (std::size_t g = 0; g < groups; ++g)
-  {
-    if (mask[g] == 0)
-    {
-      continue;
-    }
-    if (mask[g] == facing[g])
-    {
-      set(words.data() + first + size, g);
-      continue;
-    }
-    set(words.data() + first, g);
-    words.push_back(mask[g]);
-  }
+  buffer.words.push_back(
+    static_cast<std::uint16_t>(place % placesPerPart_ | (upward ? Upward : 0)));
+  appendMask(texels_.groups(), facing, mask, buffer.words);
 }
 
 void LoggedVisibility::flush(std::size_t part, Buffer& buffer)
@@ -235,7 +177,7 @@ void LoggedVisibility::beginPart(std::size_t part)
 
 void LoggedVisibility::addExtents(const Extent* first, const Extent* last)
 {
-  Words words;
+  MaskWords words;
   for (const Extent* extent = first; extent != last; ++extent)
   {
     const std::size_t start = words.size();
@@ -261,7 +203,6 @@ void LoggedVisibility::addMasks(
   const std::uint16_t* words, const Extent& extent, std::size_t firstPlace, std::size_t lastPlace)
 {
   const SweptAxis& axis = axes_[extent.axis];
-  const std::size_t size = wordsOfBits(texels_.groups());
   std::vector<GroupMask> mask(texels_.groups());
   for (const std::uint16_t* at = words; at != words + extent.words;)
   {
@@ -270,10 +211,10 @@ void LoggedVisibility::addMasks(
     ++at;
     if (place >= firstPlace && place < lastPlace)
     {
-      decode(at, axis.weights.facing[upward ? 1 : 0], mask.data());
+      decodeMask(at, mask.size(), axis.weights.facing[upward ? 1 : 0].data(), mask.data());
       addMask(place, axis, mask.data());
     }
-    at += wordsBehind(at, size);
+    at += wordsOfMask(at, mask.size());
   }
 }
 

@@ -2,8 +2,8 @@
 #ifndef po_LoggedVisibility_h
 #define po_LoggedVisibility_h
 
+#include "MaskCode.h"
 #include "ScratchFile.h"
-#include "SweepTexels.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -73,8 +73,6 @@ public:
 private:
   static constexpr unsigned NoPlace = ~0u;
 
-  using Words = std::vector<std::uint16_t>;
-
   /// Masks of one axis and part, as they are in the file.
   struct Extent
   {
@@ -86,7 +84,7 @@ private:
   /// Masks that a thread has not written yet, of one part.
   struct Buffer
   {
-    Words words;
+    MaskWords words;
     std::uint32_t axis = 0;
   };
 

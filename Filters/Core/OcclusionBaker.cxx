@@ -276,6 +276,11 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
   if (settings.light)
   {
     light.emplace(scene, particles, settings, progress);
+    if (progress.aborted())
+    {
+      result.aborted = true;
+      return result; // other processes may be amid the light: nothing more is exchanged with them
+    }
   }
   estimator.estimate(
     scene, particles, settings, progress,

@@ -104,7 +104,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
       options.records == Records::OutOfCore ? makeLog(texels_, order_, particles_, watched_)
                                             : nullptr)
   , sweep_(order_, settings.background, scene.cloud.toLocalReach(settings.maximumDistance),
-      records_, options.skips, alone_)
+      records_, options.skips, alone_, scene.group)
   , smooth_(options.smooth)
 {
 }

@@ -47,7 +47,7 @@ bool equalRadii(const SweepScene::Band& band)
 
 SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, float distance,
   VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone,
-  AxisWays ways)
+  const ProcessGroup& group, AxisWays ways)
   : scene_(scene)
   , background_(background)
   , distance_(distance)
@@ -60,8 +60,13 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   , closedCellsPay_{ skips.closedCells && !std::isfinite(distance),
     skips.closedCells && !std::isfinite(distance) }
   , everSeen_(scene.size())
-  , tileSweeps_([&records] { return TileWorkspace(records); })
+  , tileSweeps_(
+      [this, &records] { return TileWorkspace(records, division_ ? &*division_ : nullptr); })
 {
+  if (group.size() > 1 && !std::isfinite(distance))
+  {
+    division_.emplace(group, records);
+  }
   for (const std::uint8_t isAlone : alone)
   {
     takesPart_.push_back(isAlone != 0 ? Never : WhereAllDo);
@@ -109,10 +114,14 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset,
   {
     return;
   }
+  if (division_)
+  {
+    division_->deliver(weights, everSeen_);
+  }
   records_.addBlock(weights, subset);
   for (const AxisJob& job : jobs)
   {
-    neverSeen_ += job.full ? 0 : job.directions.size() * (scene_.size() - seen_);
+    neverSeen_ += job.full || !job.own ? 0 : job.directions.size() * (scene_.size() - seen_);
   }
   directions_ += static_cast<int>(2 * axes.size());
   ++blocks_;
@@ -147,7 +156,7 @@ SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool al
 {
   const bool full =
     always || directions_ < FullDirections || std::isfinite(distance_) || !skips_.neverSeen;
-  AxisJob job{ axis, planeBasis(axis), nextPattern(), full, {} };
+  AxisJob job{ axis, planeBasis(axis), nextPattern(), full, true, {} };
   for (const bool upward : { true, false })
   {
     if (!upward && ways_ == AxisWays::Forward)
@@ -165,6 +174,8 @@ SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool al
                                  job.basis, towardsLight),
       light, nullptr, job.pattern, index, distance_, upward, full, closedCellsPay_[full ? 1 : 0] });
   }
+  job.own = !division_ || division_->isOwn(sweptAxes_);
+  sweptAxes_ += job.directions.empty() ? 0 : 1;
   return job;
 }
 
@@ -206,13 +217,24 @@ void SphereSweep::finishBlock()
   const bool firstPartial = directions_ == FullDirections + 2 * static_cast<int>(AxesPerBlock);
   if (blocks_ == 1 || firstPartial)
   {
-    const bool full = blocks_ == 1;
-    const SweepCounters sum = counters(full);
-    const auto spared = static_cast<double>(sum.closed + sum.below);
-    const auto all = static_cast<double>(sum.visits + sum.below);
-    bool& pay = closedCellsPay_[full ? 1 : 0];
-    pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
+    judgeClosedCells(blocks_ == 1);
   }
+}
+
+void SphereSweep::judgeClosedCells(bool full)
+{
+  SweepCounters sum = counters(full);
+  if (division_)
+  {
+    for (std::uint64_t* number : { &sum.visits, &sum.closed, &sum.below })
+    {
+      *number = division_->sum(*number);
+    }
+  }
+  const auto spared = static_cast<double>(sum.closed + sum.below);
+  const auto all = static_cast<double>(sum.visits + sum.below);
+  bool& pay = closedCellsPay_[full ? 1 : 0];
+  pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
 }
 
 SweepCounters SphereSweep::counters() const
@@ -303,7 +325,11 @@ void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const
 
 void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
 {
-  if (job.directions.empty())
+  if (!job.own)
+  {
+    progress.advance(job.directions.size() * scene_.size());
+  }
+  if (job.directions.empty() || !job.own)
   {
     return;
   }

@@ -3,6 +3,7 @@
 #define po_SphereSweep_h
 
 #include "DepthTiles.h"
+#include "SweepDivision.h"
 #include "TileSweep.h"
 #include "VisibilityRecords.h"
 
@@ -38,12 +39,17 @@ class SphereSweep
 public:
   /// @param distance light is blocked within it: local, infinite when unbounded
   /// @param alone flags by sphere: those that take no part
+  /// @param group the processes that divide the work where the distance is unbounded: all must have
+  /// the same scene. Otherwise each has spheres of its own, and does all of its work.
   SphereSweep(const SweepScene& scene, const Background& background, float distance,
     VisibilityRecords& records, const SweepSkips& skips, const std::vector<std::uint8_t>& alone,
-    AxisWays ways = AxisWays::Both);
+    const ProcessGroup& group, AxisWays ways = AxisWays::Both);
+  SphereSweep(const SphereSweep&) = delete;
+  SphereSweep& operator=(const SphereSweep&) = delete;
 
-  /// Goes on with more axes: the directions along them and, swept or not, their opposites. Returns
-  /// early when `progress` says so. A unit of progress is one sphere in one direction.
+  /// Goes on with more axes: the directions along them and, swept or not, their opposites. A unit
+  /// of progress is one sphere in one direction. Returns early when `progress` says so; the other
+  /// processes must be told then (see ProcessGroup).
   /// @param subset that they count for, of ErrorSubsets; by default the blocks take turns
   void run(const std::vector<Vec3d>& axes, Progress& progress,
     std::optional<std::size_t> subset = std::nullopt);
@@ -53,7 +59,7 @@ public:
   [[nodiscard]] SweepCounters counters() const;
   /// Those that take part.
   [[nodiscard]] std::size_t spheres() const { return all_; }
-  /// Spheres left out since no direction had shown them, summed over the directions.
+  /// Spheres left out since no direction had shown them, summed over the directions swept here.
   [[nodiscard]] std::uint64_t neverSeen() const { return neverSeen_; }
   /// Directions not swept since the background is black there.
   [[nodiscard]] int blackDirections() const { return blackDirections_; }
@@ -67,6 +73,7 @@ private:
     PlaneBasis basis;
     std::size_t pattern;                    ///< of the points in the texels, for both directions
     bool full;                              ///< all spheres take part
+    bool own;                               ///< swept here, not by another process
     std::vector<SweptDirection> directions; ///< without those that are black or not wanted
   };
 
@@ -81,8 +88,8 @@ private:
   /// Memory of a tile that is being swept.
   struct TileWorkspace
   {
-    explicit TileWorkspace(VisibilityRecords& records)
-      : sweep(records)
+    TileWorkspace(VisibilityRecords& records, SweepDivision* division)
+      : sweep(records, division)
     {
     }
 
@@ -107,6 +114,7 @@ private:
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
   [[nodiscard]] std::size_t nextPattern();
   void finishBlock();
+  void judgeClosedCells(bool full);
   [[nodiscard]] SweepCounters counters(bool full) const;
 
   const SweepScene& scene_;
@@ -115,6 +123,7 @@ private:
   VisibilityRecords& records_;
   SweepSkips skips_;
   AxisWays ways_;
+  std::optional<SweepDivision> division_; ///< none where this process sweeps all axes
   bool useOffsetMasks_;
   std::array<bool, 2> closedCellsPay_; ///< where only spheres ever seen take part, where all do
   std::vector<std::atomic<std::uint8_t>> everSeen_;
@@ -126,6 +135,7 @@ private:
   std::vector<std::uint32_t> patternOrder_; ///< those to come
   int patternRounds_ = 0;
   std::size_t blocks_ = 0;
+  std::size_t sweptAxes_ = 0; ///< of all processes, those that are black all along left out
   int epoch_ = 0;
   int directions_ = 0; ///< black ones too
   int blackDirections_ = 0;

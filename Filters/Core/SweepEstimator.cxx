@@ -71,6 +71,10 @@ private:
     while (!progress_.aborted())
     {
       sweep_.refine(wanted - done, progress_, ProgressiveSweep::Spread::InSubsets);
+      if (progress_.aborted())
+      {
+        return; // the other processes are told by the owner, and wait for nothing else
+      }
       done = wanted;
       errors_ = sweep_.squaredErrors();
       judge();

@@ -100,10 +100,20 @@ bool TileSweep::sees(
   }
   if (tileSphere.role == TileRole::Receiver)
   {
-    records_.keep(
-      sphere.index, direction.axis, direction.upward, direction.facing.facing.data(), mask_.data());
+    keep(sphere.index, direction);
   }
   return true;
+}
+
+/// The mask of the sphere at hand, for those who have listed it.
+void TileSweep::keep(unsigned sphere, const SweptDirection& direction)
+{
+  const GroupMask* facing = direction.facing.facing.data();
+  records_.keep(sphere, direction.axis, direction.upward, facing, mask_.data());
+  if (division_ != nullptr)
+  {
+    division_->keep(sphere, direction.axis, direction.upward, facing, mask_.data());
+  }
 }
 
 bool TileSweep::passes(

@@ -7,6 +7,7 @@
 #include "DepthTiles.h"
 #include "OccluderCells.h"
 #include "OffsetMasks.h"
+#include "SweepDivision.h"
 #include "TexelMask.h"
 #include "VisibilityRecords.h"
 
@@ -61,8 +62,10 @@ struct SweepCounters
 class TileSweep
 {
 public:
-  explicit TileSweep(VisibilityRecords& records)
+  /// @param division null where nobody else takes part
+  TileSweep(VisibilityRecords& records, SweepDivision* division)
     : records_(records)
+    , division_(division)
     , mask_(std::max(OffsetMasks::Groups, records.texels().groups()), 0)
   {
   }
@@ -81,10 +84,12 @@ private:
   bool visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
   [[nodiscard]] bool sees(
     const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction);
+  void keep(unsigned sphere, const SweptDirection& direction);
   [[nodiscard]] bool passes(
     OccluderList occluders, const ProjectedSphere& receiver, const SweptDirection& direction);
 
   VisibilityRecords& records_;
+  SweepDivision* division_;
   OccluderCells cells_;
   ClosedCells closed_;
   SweepScene::Band band_{};

@@ -21,6 +21,12 @@ bool isSliver(const BuriedCap& cap)
 {
   return (1 - cap.cosine) / 2 < SmallestCap;
 }
+
+std::size_t countSet(const std::vector<std::uint8_t>& flags)
+{
+  return static_cast<std::size_t>(
+    std::count_if(flags.begin(), flags.end(), [](std::uint8_t flag) { return flag != 0; }));
+}
 }
 
 VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& order,
@@ -31,29 +37,31 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , order_(order)
   , texels_(texels)
   , seed_(seed)
-  , listed_(listed)
+  , placeOf_(order.size(), NoPlace)
   , patterns_(texels, seed, 0)
   , surface_(order.size())
   , cuts_(order.size())
   , exposures_(order.size())
-  , chunks_((order.size() + ChunkSpheres - 1) / ChunkSpheres)
-  , watched_(order.size(), 0)
+  , chunks_((countSet(listed) + ChunkSpheres - 1) / ChunkSpheres)
+  , watched_(ChunkSpheres * chunks_.size(), 0)
   , log_(std::move(log))
 {
   open_.total.assign(texels.slots(), 0.0f);
   open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
   open_.pastPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
   open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
+  unsigned places = 0;
   // Particles that are not listed are looked at all the same: what they hide must not depend on who
   // asks.
   for (unsigned sphere = 0; sphere < order.size(); ++sphere)
   {
+    placeOf_[sphere] = listed[sphere] != 0 ? places++ : NoPlace;
     const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
     surface_[sphere] = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
   }
   for (const unsigned sphere : watched)
   {
-    watched_[sphere] = 1;
+    watched_[placeOf_[sphere]] = 1;
   }
 }
 
@@ -73,7 +81,7 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
     Surface surface = surface_[sphere].load(std::memory_order_acquire);
     if (surface == Surface::Unknown)
     {
-      surface = surfaceOf(sphere);
+      surface = findSurface(sphere);
     }
     if (surface != Surface::Cut)
     {
@@ -85,7 +93,23 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
   return intersect(texels_.groups(), bits + pattern * texels_.groups(), mask);
 }
 
-VisibilityRecords::Surface VisibilityRecords::surfaceOf(unsigned sphere)
+void VisibilityRecords::learn(unsigned sphere, Surface surface)
+{
+  if (surface_[sphere].load(std::memory_order_relaxed) != Surface::Unknown)
+  {
+    return;
+  }
+  if (surface == Surface::Whole || surface == Surface::Buried)
+  {
+    surface_[sphere].store(surface, std::memory_order_release);
+  }
+  else if (surface == Surface::Cut && isListed(sphere))
+  {
+    findSurface(sphere);
+  }
+}
+
+VisibilityRecords::Surface VisibilityRecords::findSurface(unsigned sphere)
 {
   thread_local Overlaps overlaps;
   scene_.overlaps.find(order_.source(sphere), overlaps);
@@ -132,10 +156,10 @@ float* VisibilityRecords::makeSums(std::size_t count)
   return sums;
 }
 
-VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
+VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned place)
 {
-  std::atomic<Chunk*>& place = chunks_[sphere / ChunkSpheres];
-  Chunk* known = place.load(std::memory_order_acquire);
+  std::atomic<Chunk*>& chunk = chunks_[place / ChunkSpheres];
+  Chunk* known = chunk.load(std::memory_order_acquire);
   if (known != nullptr)
   {
     return *known;
@@ -143,13 +167,13 @@ VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned sphere)
   // Two threads may make the same at once; both are equal, and one is not used.
   Chunk* made = new (memory_.allocate<Chunk>(1)) Chunk{ makeSums(ChunkSpheres),
     memory_.allocate<GroupMask>(AxesPerBlock * ChunkSpheres * texels_.groups()) };
-  return *(place.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
+  return *(chunk.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 
 void VisibilityRecords::keep(
   unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask)
 {
-  if (listed_[sphere] == 0)
+  if (!isListed(sphere))
   {
     return;
   }
@@ -158,8 +182,8 @@ void VisibilityRecords::keep(
     log_->keep(sphere, axis, upward, facing, mask);
     return;
   }
-  Chunk& chunk = findOrMakeChunk(sphere);
-  const std::size_t place = sphere % ChunkSpheres;
+  Chunk& chunk = findOrMakeChunk(placeOf_[sphere]);
+  const std::size_t place = placeOf_[sphere] % ChunkSpheres;
   const std::size_t groups = texels_.groups();
   GroupMask* kept = chunk.masks + (axis * ChunkSpheres + place) * groups;
   if (chunk.seen[axis][place] == 0)
@@ -264,8 +288,13 @@ void VisibilityRecords::nextEpoch()
 
 const VisibilityRecords::Chunk* VisibilityRecords::chunkIfSeen(unsigned sphere) const
 {
-  const Chunk* chunk = chunks_[sphere / ChunkSpheres].load(std::memory_order_acquire);
-  return chunk != nullptr && chunk->everSeen[sphere % ChunkSpheres] != 0 ? chunk : nullptr;
+  if (!isListed(sphere))
+  {
+    return nullptr;
+  }
+  const unsigned place = placeOf_[sphere];
+  const Chunk* chunk = chunks_[place / ChunkSpheres].load(std::memory_order_acquire);
+  return chunk != nullptr && chunk->everSeen[place % ChunkSpheres] != 0 ? chunk : nullptr;
 }
 
 const float* VisibilityRecords::sums(unsigned sphere) const
@@ -279,7 +308,8 @@ const float* VisibilityRecords::sums(unsigned sphere) const
     return log_->sums(sphere);
   }
   const Chunk* chunk = chunkIfSeen(sphere);
-  return chunk != nullptr ? chunk->sums + sphere % ChunkSpheres * texels_.slots() : nullptr;
+  return chunk != nullptr ? chunk->sums + placeOf_[sphere] % ChunkSpheres * texels_.slots()
+                          : nullptr;
 }
 
 const float* VisibilityRecords::subsetSums(unsigned sphere) const
@@ -293,7 +323,7 @@ const float* VisibilityRecords::subsetSums(unsigned sphere) const
     return log_->subsetSums(sphere);
   }
   const Chunk* chunk = chunkIfSeen(sphere);
-  return chunk != nullptr ? chunk->subsets[sphere % ChunkSpheres] : nullptr;
+  return chunk != nullptr ? chunk->subsets[placeOf_[sphere] % ChunkSpheres] : nullptr;
 }
 
 const CutSphere* VisibilityRecords::cut(unsigned sphere) const
@@ -333,9 +363,9 @@ bool VisibilityRecords::isAlone(unsigned sphere) const
 std::uint64_t VisibilityRecords::countListed(Surface surface) const
 {
   std::uint64_t count = 0;
-  for (std::size_t sphere = 0; sphere < listed_.size(); ++sphere)
+  for (unsigned sphere = 0; sphere < placeOf_.size(); ++sphere)
   {
-    count += listed_[sphere] != 0 && surface_[sphere].load(std::memory_order_relaxed) == surface;
+    count += isListed(sphere) && surface_[sphere].load(std::memory_order_relaxed) == surface;
   }
   return count;
 }

@@ -42,16 +42,27 @@ struct OpenWeights
   std::vector<float> latestPatterns; ///< in the order of TexelPatterns, this epoch
 };
 
-/// The visibility of spheres, in memory that is taken when one of 16 neighbours is first seen: at
-/// 16 x 16 texels 1.25 KiB a sphere, 1 to 2 KiB more where others overlap it, and 4 KiB more where
-/// it is watched and seen. Out of core the visibility is in a file, and only what overlaps a sphere
-/// takes memory.
+/// The visibility of the listed spheres, in memory that is taken when one of 16 neighbours is first
+/// seen: at 16 x 16 texels 1.25 KiB a sphere, 1 to 2 KiB more where others overlap it, and 4 KiB
+/// more where it is watched and seen. Out of core the visibility is in a file, and only what
+/// overlaps a sphere takes memory.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
 class VisibilityRecords
 {
 public:
+  /// What is known of a sphere's surface.
+  enum class Surface : std::uint8_t
+  {
+    Unknown,
+    Whole, ///< no part is inside others
+    Cut,
+    Buried,
+    Alone,   ///< open all over, not swept
+    Occluder ///< no particle: never looked at, since it only occludes
+  };
+
   /// @param listed flags by sphere: whose visibility is asked for
   /// @param alone flags by sphere: known to be open all over
   /// @param watched the spheres that error bars come from
@@ -67,12 +78,25 @@ public:
   [[nodiscard]] const SweepTexels& texels() const { return texels_; }
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
+  /// Of the SweepScene.
+  [[nodiscard]] std::size_t spheres() const { return placeOf_.size(); }
+  [[nodiscard]] bool isListed(unsigned sphere) const { return placeOf_[sphere] != NoPlace; }
+
   /// Fetches what clearInside() needs of a sphere, if it has been seen, while other work goes on.
   void prefetch(unsigned sphere, std::size_t pattern) const;
 
   /// Clears the bits of points that lie inside other spheres, for a sphere that is seen, maybe for
   /// the first time; false if none is left.
   bool clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask);
+
+  /// For a sphere that is not known to show anything it is not found out.
+  [[nodiscard]] Surface surface(unsigned sphere) const
+  {
+    return surface_[sphere].load(std::memory_order_relaxed);
+  }
+  /// Takes what another process has found out. What cuts a sphere is found again, if it is listed
+  /// here, or else when that is needed. Threads may call this at once.
+  void learn(unsigned sphere, Surface surface);
 
   /// Keeps what a direction of axis `axis` of the block sees of a sphere, beside what the other
   /// direction does.
@@ -108,21 +132,11 @@ public:
   [[nodiscard]] std::uint64_t alone() const;
 
 private:
-  /// What is known of a sphere's surface.
-  enum class Surface : std::uint8_t
-  {
-    Unknown,
-    Whole, ///< no part is inside others
-    Cut,
-    Buried,
-    Alone,   ///< open all over, not swept
-    Occluder ///< no particle: never looked at, since it only occludes
-  };
-
   static constexpr std::size_t ChunkSpheres = 16;
+  static constexpr unsigned NoPlace = ~0u;
 
-  /// In memory: neighbouring spheres. Masks and marks are kept by axis: an axis writes to
-  /// neighbours in memory, and two axes never to the same byte.
+  /// In memory: listed spheres that follow each other. Masks and marks are kept by axis: an axis
+  /// writes to neighbours in memory, and two axes never to the same byte.
   struct Chunk
   {
     float* sums;      ///< [ChunkSpheres][slots]
@@ -132,7 +146,7 @@ private:
     std::array<float*, ChunkSpheres> subsets{}; ///< of watched spheres ever seen
   };
 
-  [[nodiscard]] Surface surfaceOf(unsigned sphere);
+  Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
   [[nodiscard]] std::unique_ptr<CutSphere> makeCut(
     unsigned sphere, const std::vector<BuriedCap>& caps);
@@ -140,7 +154,7 @@ private:
   /// to sums [rimGroups][GroupSize].
   void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
   [[nodiscard]] float* makeSums(std::size_t count);
-  Chunk& findOrMakeChunk(unsigned sphere);
+  Chunk& findOrMakeChunk(unsigned place);
   void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
   [[nodiscard]] bool isAlone(unsigned sphere) const;
   [[nodiscard]] const Chunk* chunkIfSeen(unsigned sphere) const;
@@ -149,7 +163,7 @@ private:
   const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
-  std::vector<std::uint8_t> listed_; ///< flags by sphere
+  std::vector<unsigned> placeOf_; ///< by sphere: its place among the listed ones, or NoPlace
   std::uint32_t epoch_ = 0;
   TexelPatterns patterns_;
   OpenWeights open_;
@@ -157,9 +171,9 @@ private:
   std::vector<std::atomic<Surface>> surface_;            ///< by sphere
   std::vector<std::atomic<CutSphere*>> cuts_;            ///< by sphere
   std::vector<std::atomic<const GroupMask*>> exposures_; ///< by sphere: the bits of cut ones
-  std::vector<std::atomic<Chunk*>> chunks_;              ///< by sphere / ChunkSpheres
+  std::vector<std::atomic<Chunk*>> chunks_;              ///< by place / ChunkSpheres
   tbb::concurrent_vector<std::unique_ptr<CutSphere>> ownedCuts_;
-  std::vector<std::uint8_t> watched_;     ///< flags by sphere
+  std::vector<std::uint8_t> watched_;     ///< flags by place
   std::unique_ptr<LoggedVisibility> log_; ///< null: in chunks
 };
 }

@@ -24,15 +24,20 @@ public:
 
   [[nodiscard]] int size() const { return size_; }
 
-  /// What all have brought, when all are there.
-  std::vector<po::ProcessGroup::Words> bring(int rank, const po::ProcessGroup::Words& own)
+  /// Calls take(words) with what each has brought, in the order of ranks, when all are there.
+  template <typename Take>
+  void meet(int rank, const po::ProcessGroup::Words& own, const Take& take)
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    words_[static_cast<std::size_t>(rank)] = own;
+    words_[static_cast<std::size_t>(rank)] = &own;
     arrive(lock);
-    const std::vector<po::ProcessGroup::Words> all = words_;
-    arrive(lock); // nobody brings more before all have seen this
-    return all;
+    lock.unlock();
+    for (const po::ProcessGroup::Words* words : words_)
+    {
+      take(*words);
+    }
+    lock.lock();
+    arrive(lock); // nobody brings more, or takes it away, before all have seen this
   }
 
 private:
@@ -54,7 +59,7 @@ private:
   int round_ = 0;
   std::mutex mutex_;
   std::condition_variable all_;
-  std::vector<po::ProcessGroup::Words> words_;
+  std::vector<const po::ProcessGroup::Words*> words_;
 };
 
 class ThreadGroup : public po::ProcessGroup
@@ -73,10 +78,8 @@ protected:
   [[nodiscard]] std::vector<std::int64_t> exchange(std::int64_t own) const override
   {
     std::vector<std::int64_t> all;
-    for (const Words& words : meeting_.bring(rank_, { static_cast<std::uint64_t>(own) }))
-    {
-      all.push_back(static_cast<std::int64_t>(words.front()));
-    }
+    meeting_.meet(rank_, { static_cast<std::uint64_t>(own) },
+      [&](const Words& words) { all.push_back(static_cast<std::int64_t>(words.front())); });
     return all;
   }
 
@@ -84,13 +87,14 @@ protected:
     int destination, const Words& own, const std::vector<std::int64_t>&, Words& all) const override
   {
     all.clear();
-    for (const Words& words : meeting_.bring(rank_, own))
-    {
-      if (destination < 0 || destination == rank_)
+    meeting_.meet(rank_, own,
+      [&](const Words& words)
       {
-        all.insert(all.end(), words.begin(), words.end());
-      }
-    }
+        if (destination < 0 || destination == rank_)
+        {
+          all.insert(all.end(), words.begin(), words.end());
+        }
+      });
   }
 
 private:
