@@ -93,10 +93,13 @@ bool TileSweep::sees(
   const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
 {
   std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
-  if (!records_.clearCovered(sphere.index, direction.axis, mask_.data()) ||
-    !passes(cells_.cellOf(sphere), sphere, direction) ||
-    !passes(cells_.wide(), sphere, direction) ||
-    !records_.clearInside(sphere.index, direction.pattern, mask_.data()))
+  if (!records_.clearCovered(sphere.index, mask_.data()) ||
+    !passes(cells_.cellOf(sphere), sphere, direction) || !passes(cells_.wide(), sphere, direction))
+  {
+    return false;
+  }
+  records_.prefetchMasks(sphere.index, direction.axis);
+  if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))
   {
     return false;
   }

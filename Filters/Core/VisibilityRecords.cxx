@@ -77,7 +77,7 @@ void VisibilityRecords::prefetch(unsigned sphere) const
   }
 }
 
-bool VisibilityRecords::clearCovered(unsigned sphere, std::size_t axis, GroupMask* mask) const
+bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask) const
 {
   const TexelRims* known = rims(sphere);
   if (known != nullptr && known->areToldApart())
@@ -93,12 +93,16 @@ bool VisibilityRecords::clearCovered(unsigned sphere, std::size_t axis, GroupMas
     hwy::Prefetch(known->caps);
     hwy::Prefetch(known->caps + 4);
   }
+  return true;
+}
+
+void VisibilityRecords::prefetchMasks(unsigned sphere, std::size_t axis) const
+{
   if (const Record* record = log_ ? nullptr : recordOf(sphere))
   {
     hwy::Prefetch(record);
     hwy::Prefetch(reinterpret_cast<const GroupMask*>(record + 1) + axis * texels_.groups());
   }
-  return true;
 }
 
 bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask)

@@ -81,8 +81,11 @@ public:
   void prefetch(unsigned sphere) const;
 
   /// Clears the bits of texels that are wholly inside, if it is known already what overlaps the
-  /// sphere; false if none is left. Fetches what clearInside() and keep() need then.
-  bool clearCovered(unsigned sphere, std::size_t axis, GroupMask* mask) const;
+  /// sphere; false if none is left. Fetches what clearInside() needs then.
+  bool clearCovered(unsigned sphere, GroupMask* mask) const;
+
+  /// Fetches what keep() needs of a sphere that was seen before, while other work goes on.
+  void prefetchMasks(unsigned sphere, std::size_t axis) const;
 
   /// Clears the bits of points that lie inside other spheres, for a sphere that is seen, maybe for
   /// the first time; false if none is left.
