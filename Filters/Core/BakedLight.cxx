@@ -52,8 +52,8 @@ BakedLight::Workspace BakedLight::makeWorkspace() const
 {
   const std::vector<float> slots(texels_.slots());
   const std::vector<float> texels(formula_.texels());
-  return { ParticleView(scene_, distance_, RayShare::One), {}, TexelExposure(), {}, slots, slots,
-    texels, texels };
+  return { ParticleView(scene_, distance_, RayShare::One), {}, {}, {}, {}, slots, slots, texels,
+    texels };
 }
 
 RawTextures BakedLight::addTo(const RawTextures& textures, Progress& progress)
@@ -94,8 +94,8 @@ void BakedLight::look(unsigned id, Workspace& work) const
   OutsideSurface outside = formula_.whole();
   if (!work.overlaps.caps.empty())
   {
-    exposeTexels(texels_, patterns_, work.overlaps.caps, work.exposure);
-    outside = formula_.cut(work.exposure);
+    exposeTexels(texels_, patterns_, work.rims.find(texels_, work.overlaps.caps), work.exposure);
+    formula_.cut(work.exposure, outside);
   }
   // Every point counts, those that face away too.
   std::transform(outside.shares.begin(), outside.shares.end(), work.weights.begin(),

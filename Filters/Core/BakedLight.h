@@ -5,6 +5,7 @@
 #include "LightSweep.h"
 #include "OcclusionEstimator.h"
 #include "ParticleView.h"
+#include "RimFinder.h"
 #include "SharedDirections.h"
 #include "SweepTexels.h"
 #include "TextureFormula.h"
@@ -53,6 +54,7 @@ private:
   {
     ParticleView view;
     Overlaps overlaps;
+    RimFinder rims;
     TexelExposure exposure;
     std::vector<GroupMask> mask;
     std::vector<float> sums, weights; ///< [slots]

@@ -4,6 +4,7 @@
 #include "DirectionSets.h"
 #include "ParticleView.h"
 #include "Random.h"
+#include "RimFinder.h"
 #include "SweepEstimator.h"
 #include "TexelSums.h"
 
@@ -31,6 +32,7 @@ struct Workspace
 {
   ParticleView view;
   Overlaps overlaps;
+  RimFinder rims;
   std::vector<GroupMask> exposed;
   std::vector<GroupMask> seen;
   BakeCounters counters;
@@ -117,7 +119,7 @@ public:
           const std::vector<GroupMask> mask(texels_.groups());
           return Workspace{ ParticleView(
                               scene_, scene_.cloud.toLocalReach(settings_.maximumDistance), share_),
-            {}, mask, mask, {} };
+            {}, {}, mask, mask, {} };
         })
   {
   }
@@ -244,10 +246,12 @@ private:
     TexelExposure exposure;
     if (!work.overlaps.caps.empty())
     {
-      exposeTexels(texels_, set.patterns(), work.overlaps.caps, exposure);
+      exposeTexels(texels_, set.patterns(), work.rims.find(texels_, work.overlaps.caps), exposure);
       if (firstSet)
       {
-        sums.makeCut(formula_.cut(exposure));
+        OutsideSurface outside;
+        formula_.cut(exposure, outside);
+        sums.makeCut(std::move(outside));
       }
     }
     work.view.begin(id);

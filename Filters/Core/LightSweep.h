@@ -19,7 +19,7 @@ class LightSweep
 {
 public:
   /// Upper bound of its memory, of all particles.
-  static constexpr double BytesPerTexel = 13;
+  static constexpr double BytesPerTexel = 10;
 
   /// Sweeps. Returns early when `progress` says so; sums() is incomplete then.
   /// @param particles whose sums are wanted, by their number in the scene

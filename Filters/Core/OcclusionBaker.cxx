@@ -65,6 +65,12 @@ public:
 private:
   void addParticle(const float* values, const float* shares)
   {
+    if (std::all_of(values, values + texture_.size(), [](float value) { return value == 0; }))
+    {
+      mean_.push_back(0);
+      textures_.addDark();
+      return;
+    }
     mean_.push_back(meanOutside(values, shares));
     fillTexture(values, shares);
     const bool oneValue = settings_.storage == Storage::OneValue;

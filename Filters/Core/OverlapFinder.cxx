@@ -105,6 +105,12 @@ struct OverlapQuery : Query
 /// 2 r.
 void addOverlap(double r, Vec3d d, double radius, Overlaps& result)
 {
+  // Most are too far away: told without a root. Where rounding might matter it is told below.
+  const double reach = r + radius;
+  if (dot(d, d) > reach * reach * (1 + 1e-9))
+  {
+    return;
+  }
   const double distance = length(d);
   // r - R and r + R are taken first: a difference of squares would cancel.
   const double excess = (r - radius) * (r + radius);

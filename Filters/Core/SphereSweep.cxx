@@ -235,6 +235,8 @@ void SphereSweep::judgeClosedCells(bool full)
   const auto all = static_cast<double>(sum.visits + sum.below);
   bool& pay = closedCellsPay_[full ? 1 : 0];
   pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
+  // Without the buried ones less is spared.
+  closedCellsPay_[0] = closedCellsPay_[0] && closedCellsPay_[1];
 }
 
 SweepCounters SphereSweep::counters() const

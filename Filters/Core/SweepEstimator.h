@@ -57,13 +57,14 @@ public:
     const BakeSettings& settings, Progress& progress, const Sink& sink,
     BakeCounters& counters) const override;
 
-  /// Of particles that are overlapped; others need 8 less (see VisibilityRecords). The error bars
-  /// of all particles take 16. Out of core the 8 remain, of those that are seen: together with the
-  /// linear table, which is there for a moment only (see TextureIntake), the number here covered
-  /// all that was measured, in a set in which all particles overlap too.
+  /// Of particles that twenty others overlap; those that nothing overlaps need 5 (see
+  /// VisibilityRecords). The error bars of all particles take 16. Out of core what overlaps
+  /// particles that are looked at remains, 2 to 5: together with the linear table, which is there
+  /// for a moment only (see TextureIntake), the number here covered all that was measured, in a set
+  /// in which all particles overlap too.
   [[nodiscard]] double bytesPerTexel() const override
   {
-    return options_.targetError > 0 ? 29 : (options_.outOfCore ? 3 : 13);
+    return options_.targetError > 0 ? 26 : (options_.outOfCore ? 3 : 10);
   }
 
   [[nodiscard]] double estimatedError() const override { return report_.estimatedError; }

@@ -76,6 +76,7 @@ struct TexelPatterns
   /// The unit normals [groups][Count][GroupSize], 0 in empty slots.
   std::vector<float> x, y, z;
 
+  [[nodiscard]] std::size_t groups() const { return x.size() / (Count * GroupSize); }
   [[nodiscard]] static constexpr std::size_t index(std::size_t pattern, std::size_t slot)
   {
     return (slot / GroupSize * Count + pattern) * GroupSize + slot % GroupSize;

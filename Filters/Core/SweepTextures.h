@@ -2,6 +2,7 @@
 #ifndef po_SweepTextures_h
 #define po_SweepTextures_h
 
+#include "RimFinder.h"
 #include "TextureFormula.h"
 #include "VisibilityRecords.h"
 
@@ -26,12 +27,23 @@ public:
   [[nodiscard]] SquaredError squaredError(unsigned sphere) const;
 
 private:
-  [[nodiscard]] std::vector<float> subsetWeights(const CutSphere& cut) const;
+  /// What of a sphere that others overlap is outside.
+  struct CutSurface
+  {
+    OutsideSurface surface;
+    std::vector<float> weights; ///< [slots] of its points that are outside: what open texels sum to
+    RimFinder finder;
+    TexelExposure exposure;
+    std::vector<float> rims; ///< [rimGroups][GroupSize] of weights
+  };
+
+  void lookAt(const TexelRims& known, CutSurface& cut) const;
+  void weigh(const TexelRims& rims, CutSurface& cut) const;
+  [[nodiscard]] std::vector<float> subsetWeights(const CutSurface& cut) const;
 
   const VisibilityRecords& records_;
   TextureFormula formula_;
   TextureSmoothing smoothing_;
-  std::vector<float> dark_; ///< [ErrorSubsets][slots] zeros
 };
 }
 

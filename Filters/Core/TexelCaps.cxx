@@ -46,31 +46,77 @@ void classify(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, Gro
   }
 }
 
-void clearBuried(const TexelPatterns& patterns, std::size_t group, const RimCap* caps,
-  std::size_t count, GroupMask* bits, std::size_t stride)
+/// The points of a pattern that lie inside any of the caps, as bits.
+inline unsigned insideOf(
+  const TexelPatterns& patterns, std::size_t pattern, std::size_t group, const CapList& caps)
 {
   const Floats d;
+  unsigned bits = 0;
+  for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+  {
+    const std::size_t i = TexelPatterns::index(pattern, group * GroupSize + lane);
+    const auto x = hn::LoadU(d, patterns.x.data() + i);
+    const auto y = hn::LoadU(d, patterns.y.data() + i);
+    const auto z = hn::LoadU(d, patterns.z.data() + i);
+    auto inside = noLanes(d);
+    for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
+    {
+      const RimCap& cap = caps.caps[*place];
+      const auto xy = hn::MulAdd(y, hn::Set(d, cap.axis.y), hn::Mul(x, hn::Set(d, cap.axis.x)));
+      const auto height = hn::MulAdd(z, hn::Set(d, cap.axis.z), xy);
+      inside = hn::Or(inside, hn::Gt(height, hn::Set(d, cap.cosine)));
+    }
+    bits |= bitsOf(d, inside) << lane;
+  }
+  return bits;
+}
+
+void clearBuried(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
+  GroupMask* bits, std::size_t stride)
+{
   for (std::size_t pattern = 0; pattern < TexelPatterns::Count; ++pattern)
   {
-    unsigned buried = 0;
-    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
-    {
-      const std::size_t i = TexelPatterns::index(pattern, group * GroupSize + lane);
-      const auto x = hn::LoadU(d, patterns.x.data() + i);
-      const auto y = hn::LoadU(d, patterns.y.data() + i);
-      const auto z = hn::LoadU(d, patterns.z.data() + i);
-      auto inside = noLanes(d);
-      for (const RimCap* cap = caps; cap != caps + count; ++cap)
-      {
-        const auto xy = hn::MulAdd(y, hn::Set(d, cap->axis.y), hn::Mul(x, hn::Set(d, cap->axis.x)));
-        const auto height = hn::MulAdd(z, hn::Set(d, cap->axis.z), xy);
-        inside = hn::Or(inside, hn::Gt(height, hn::Set(d, cap->cosine)));
-      }
-      buried |= bitsOf(d, inside) << lane;
-    }
     GroupMask& mask = bits[pattern * stride];
-    mask = static_cast<GroupMask>(mask & ~buried);
+    mask = static_cast<GroupMask>(mask & ~insideOf(patterns, pattern, group, caps));
   }
+}
+
+/// Clears the points of a group that lie inside any of the caps.
+inline void clearGroup(const TexelPatterns& patterns, std::size_t pattern, std::size_t group,
+  const CapList& caps, GroupMask* mask)
+{
+  mask[group] = static_cast<GroupMask>(mask[group] & ~insideOf(patterns, pattern, group, caps));
+}
+
+bool clearRims(
+  const TexelPatterns& patterns, std::size_t pattern, const TexelRims& rims, GroupMask* mask)
+{
+  const std::size_t groups = patterns.groups();
+  const bool apart = rims.areToldApart();
+  for (std::size_t g = 0; apart && g < groups; ++g)
+  {
+    mask[g] = static_cast<GroupMask>(mask[g] & rims.outside[g]);
+  }
+  for (std::size_t rim = 0; apart && rim < rims.count; ++rim)
+  {
+    if ((mask[rims.rims[rim].group] & rims.rims[rim].crossed) != 0)
+    {
+      clearGroup(patterns, pattern, rims.rims[rim].group, rims.capsOf(rim), mask);
+    }
+  }
+  for (std::size_t g = 0; !apart && g < groups; ++g)
+  {
+    if (mask[g] != 0)
+    {
+      clearGroup(patterns, pattern, g, rims.capsOf(0), mask);
+    }
+  }
+  unsigned left = 0;
+  for (std::size_t g = 0; g < groups; ++g)
+  {
+    left |= mask[g];
+  }
+  return left != 0;
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -80,6 +126,7 @@ namespace po
 {
 HWY_EXPORT(classify);
 HWY_EXPORT(clearBuried);
+HWY_EXPORT(clearRims);
 
 void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
   GroupMask* part)
@@ -87,10 +134,16 @@ void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, 
   HWY_DYNAMIC_DISPATCH(classify)(discs, axis, cosine, sine, covered, part);
 }
 
-void clearCaps(const TexelPatterns& patterns, std::size_t group, const RimCap* caps,
-  std::size_t count, GroupMask* bits, std::size_t stride)
+void clearCaps(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
+  GroupMask* bits, std::size_t stride)
 {
-  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, caps, count, bits, stride);
+  HWY_DYNAMIC_DISPATCH(clearBuried)(patterns, group, caps, bits, stride);
+}
+
+bool clearInside(
+  const TexelPatterns& patterns, std::size_t pattern, const TexelRims& rims, GroupMask* mask)
+{
+  return HWY_DYNAMIC_DISPATCH(clearRims)(patterns, pattern, rims, mask);
 }
 }
 #endif

@@ -3,6 +3,7 @@
 #define po_TexelCaps_h
 
 #include "SweepTexels.h"
+#include "TexelRims.h"
 
 #include <cstddef>
 
@@ -15,17 +16,15 @@ namespace po
 void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
   GroupMask* part);
 
-/// A cap of the unit sphere: normal . axis > cosine.
-struct RimCap
-{
-  Vec3f axis;
-  float cosine;
-};
-
 /// Clears the bits of the points of one group that lie inside any of some caps.
 /// @param bits of the first pattern; those of the next are `stride` further
-void clearCaps(const TexelPatterns& patterns, std::size_t group, const RimCap* caps,
-  std::size_t count, GroupMask* bits, std::size_t stride);
+void clearCaps(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
+  GroupMask* bits, std::size_t stride);
+
+/// Clears the points of a pattern that lie inside other spheres; false if none is left.
+/// @param mask one for each group
+bool clearInside(
+  const TexelPatterns& patterns, std::size_t pattern, const TexelRims& rims, GroupMask* mask);
 }
 
 #endif

@@ -2,11 +2,10 @@
 #ifndef po_TexelExposure_h
 #define po_TexelExposure_h
 
-#include "OverlapFinder.h"
 #include "SweepTexels.h"
+#include "TexelRims.h"
 
 #include <cstdint>
-#include <memory_resource>
 #include <vector>
 
 namespace po
@@ -14,13 +13,7 @@ namespace po
 /// Which points of a particle's texels lie outside all other spheres.
 struct TexelExposure
 {
-  /// @param memory of the bits
-  explicit TexelExposure(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-    : bits(memory)
-  {
-  }
-
-  std::pmr::vector<GroupMask> bits;     ///< [TexelPatterns::Count][groups]
+  std::vector<GroupMask> bits;          ///< [TexelPatterns::Count][groups]
   std::vector<std::uint32_t> rimGroups; ///< those in which patterns may differ
 
   [[nodiscard]] const GroupMask* ofPattern(std::size_t pattern, std::size_t groups) const
@@ -29,10 +22,10 @@ struct TexelExposure
   }
 };
 
-/// Tests the points of all patterns against the caps; a texel that no rim crosses takes one test.
+/// Tests the points of all patterns in the texels that rims cross.
 /// @param result is overwritten, and keeps its memory
-void exposeTexels(const SweepTexels& texels, const TexelPatterns& patterns,
-  const std::vector<BuriedCap>& caps, TexelExposure& result);
+void exposeTexels(const SweepTexels& texels, const TexelPatterns& patterns, const TexelRims& rims,
+  TexelExposure& result);
 
 /// The texels whose points of a pattern face a direction and lie outside all other spheres.
 /// @param exposure empty where nothing overlaps the particle

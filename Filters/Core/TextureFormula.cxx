@@ -51,6 +51,7 @@ double SquaredError::rms() const
 TextureFormula::TextureFormula(
   const SweepTexels& texels, const TexelPatterns& patterns, const Background& background)
   : groups_(texels.groups())
+  , isWhole_(texels.refinement() == 1)
   , uniform_(std::holds_alternative<UniformBackground>(background))
   , ones_(TexelPatterns::Count * GroupSize, 1.0f)
   , whole_{ std::vector<float>(texels.slots(), 1.0f), std::vector<float>(texels.slots(), 1.0f) }
@@ -103,9 +104,9 @@ void TextureFormula::addIrradiance(
   }
 }
 
-OutsideSurface TextureFormula::cut(const TexelExposure& exposure) const
+void TextureFormula::cut(const TexelExposure& exposure, OutsideSurface& surface) const
 {
-  OutsideSurface surface = whole_;
+  surface = whole_;
   for (std::size_t slot = 0; slot < surface.shares.size(); ++slot)
   {
     const bool outside = (exposure.bits[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
@@ -132,13 +133,17 @@ OutsideSurface TextureFormula::cut(const TexelExposure& exposure) const
       }
     }
   }
-  return surface;
 }
 
 void TextureFormula::fill(const OutsideSurface& surface, const float* sums, const float* weights,
   float* values, float* shares) const
 {
   fill(0, 0, values, shares);
+  if (isWhole_)
+  {
+    fillWhole(surface, sums, weights, values, shares);
+    return;
+  }
   for (const Part& part : parts_)
   {
     if (weights[part.slot] > 0)
@@ -153,6 +158,21 @@ void TextureFormula::fill(const OutsideSurface& surface, const float* sums, cons
   {
     values[i] = shares[i] > 0 ? values[i] / shares[i] : 0.0f;
     shares[i] /= areas_[i];
+  }
+}
+
+/// The same where each texel is one of the fine ones.
+void TextureFormula::fillWhole(const OutsideSurface& surface, const float* sums,
+  const float* weights, float* values, float* shares) const
+{
+  for (const Part& part : parts_)
+  {
+    if (weights[part.slot] > 0 && surface.shares[part.slot] > 0)
+    {
+      const float open = std::min(sums[part.slot] / weights[part.slot], 1.0f);
+      values[part.texel] = open * surface.irradiance[part.slot];
+      shares[part.texel] = surface.shares[part.slot];
+    }
   }
 }
 

@@ -50,7 +50,8 @@ public:
   /// Of a particle that nothing overlaps.
   [[nodiscard]] const OutsideSurface& whole() const { return whole_; }
   /// Of one whose points are exposed like this.
-  [[nodiscard]] OutsideSurface cut(const TexelExposure& exposure) const;
+  /// @param surface is overwritten, and keeps its memory
+  void cut(const TexelExposure& exposure, OutsideSurface& surface) const;
 
   /// Number of texels of a texture.
   [[nodiscard]] std::size_t texels() const { return areas_.size(); }
@@ -71,6 +72,8 @@ public:
     const float* weights, const TextureSmoothing& smoothing) const;
 
 private:
+  void fillWhole(const OutsideSurface& surface, const float* sums, const float* weights,
+    float* values, float* shares) const;
   void addParts(const SweepTexels& texels);
   void addIrradiance(
     const SweepTexels& texels, const TexelPatterns& patterns, const Background& background);
@@ -84,6 +87,7 @@ private:
   };
 
   std::size_t groups_;
+  bool isWhole_;                  ///< each texel is one fine texel
   bool uniform_;                  ///< an open surface receives 1 everywhere
   std::vector<float> ones_;       ///< for all points of a group
   std::vector<float> irradiance_; ///< of all points, in the order of TexelPatterns, if not uniform

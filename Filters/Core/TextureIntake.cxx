@@ -40,6 +40,17 @@ void TextureIntake::add(const float* texture)
   rowOf_.push_back(bytes_ ? bytes_->insert(texture) : linear_.insert(texture));
 }
 
+void TextureIntake::addDark()
+{
+  if (dark_)
+  {
+    rowOf_.push_back(rowOf_[*dark_]);
+    return;
+  }
+  dark_ = rowOf_.size();
+  add(std::vector<float>(linear_.texelsPerRow(), 0.0f).data());
+}
+
 void TextureIntake::beginBytes()
 {
   bytes_.emplace(linear_.resolution(), brightest_, particles_);

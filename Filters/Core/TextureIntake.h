@@ -28,6 +28,9 @@ public:
   /// The texture of the next particle: T x T texels, or with Storage::OneValue one.
   void add(const float* texture);
 
+  /// The same for one of zeros: that of a particle that no light reaches.
+  void addDark();
+
   /// Brings what was taken into the form that the settings ask for.
   /// @param noise see storeTextures
   /// @param rowOf set to the row of each particle
@@ -44,6 +47,7 @@ private:
   TextureTable linear_;
   std::optional<ByteTable> bytes_; ///< in place of the linear ones
   std::vector<std::int32_t> rowOf_;
+  std::optional<std::size_t> dark_; ///< place of a particle that no light reaches
 };
 }
 

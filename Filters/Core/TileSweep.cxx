@@ -22,6 +22,8 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
   {
     const DepthOrder::Slab slab = order.slab(direction.upward ? slabs - 1 - i : i);
     const auto count = static_cast<std::size_t>(slab.last - slab.first);
+    std::for_each(
+      slab.first, slab.last, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
     for (std::size_t k = 0; k < count; ++k)
     {
       const TileSphere& sphere =
@@ -90,11 +92,14 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
 bool TileSweep::sees(
   const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
 {
-  records_.prefetch(sphere.index, direction.pattern);
   std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
-  if (!passes(cells_.cellOf(sphere), sphere, direction) ||
-    !passes(cells_.wide(), sphere, direction) ||
-    !records_.clearInside(sphere.index, direction.pattern, mask_.data()))
+  if (!records_.clearCovered(sphere.index, mask_.data()) ||
+    !passes(cells_.cellOf(sphere), sphere, direction) || !passes(cells_.wide(), sphere, direction))
+  {
+    return false;
+  }
+  records_.prefetchMasks(sphere.index, direction.axis);
+  if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))
   {
     return false;
   }

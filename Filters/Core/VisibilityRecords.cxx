@@ -2,12 +2,14 @@
 #include "VisibilityRecords.h"
 
 #include "MaskedSums.h"
+#include "RimFinder.h"
+#include "TexelCaps.h"
 
 #include <hwy/cache_control.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <functional>
 
 namespace po
 {
@@ -38,18 +40,15 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , texels_(texels)
   , seed_(seed)
   , placeOf_(order.size(), NoPlace)
-  , patterns_(texels, seed, 0)
   , surface_(order.size())
-  , cuts_(order.size())
-  , exposures_(order.size())
-  , chunks_((countSet(listed) + ChunkSpheres - 1) / ChunkSpheres)
-  , watched_(ChunkSpheres * chunks_.size(), 0)
+  , rims_(order.size())
+  , records_(log ? 0 : countSet(listed))
+  , watched_(countSet(listed), 0)
   , log_(std::move(log))
 {
   open_.total.assign(texels.slots(), 0.0f);
   open_.subsets.assign(ErrorSubsets * texels.slots(), 0.0f);
-  open_.pastPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
-  open_.latestPatterns.assign(TexelPatterns::Count * texels.slots(), 0.0f);
+  beginEpoch();
   unsigned places = 0;
   // Particles that are not listed are looked at all the same: what they hide must not depend on who
   // asks.
@@ -65,18 +64,51 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   }
 }
 
-void VisibilityRecords::prefetch(unsigned sphere, std::size_t pattern) const
+void VisibilityRecords::prefetch(unsigned sphere) const
 {
-  if (const GroupMask* bits = exposures_[sphere].load(std::memory_order_relaxed))
+  if (const TexelRims* rims = rims_[sphere].load(std::memory_order_relaxed))
   {
-    hwy::Prefetch(bits + pattern * texels_.groups());
+    hwy::Prefetch(rims);
+    hwy::Prefetch(reinterpret_cast<const char*>(rims) + 64);
+  }
+  if (!log_)
+  {
+    hwy::Prefetch(&placeOf_[sphere]);
+  }
+}
+
+bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask) const
+{
+  const TexelRims* known = rims(sphere);
+  if (known != nullptr && known->areToldApart())
+  {
+    if (!intersect(texels_.groups(), known->outside, mask))
+    {
+      return false;
+    }
+    hwy::Prefetch(known->rims);
+    hwy::Prefetch(known->rims + 8);
+    hwy::Prefetch(known->capOf);
+    hwy::Prefetch(known->capOf + 16);
+    hwy::Prefetch(known->caps);
+    hwy::Prefetch(known->caps + 4);
+  }
+  return true;
+}
+
+void VisibilityRecords::prefetchMasks(unsigned sphere, std::size_t axis) const
+{
+  if (const Record* record = log_ ? nullptr : recordOf(sphere))
+  {
+    hwy::Prefetch(record);
+    hwy::Prefetch(reinterpret_cast<const GroupMask*>(record + 1) + axis * texels_.groups());
   }
 }
 
 bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask)
 {
-  const GroupMask* bits = exposures_[sphere].load(std::memory_order_acquire);
-  if (bits == nullptr)
+  const TexelRims* known = rims(sphere);
+  if (known == nullptr)
   {
     Surface surface = surface_[sphere].load(std::memory_order_acquire);
     if (surface == Surface::Unknown)
@@ -88,9 +120,9 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
       // What shows of one that only occludes inside others hides nothing that is outside.
       return surface != Surface::Buried;
     }
-    bits = exposures_[sphere].load(std::memory_order_acquire);
+    known = rims(sphere);
   }
-  return intersect(texels_.groups(), bits + pattern * texels_.groups(), mask);
+  return po::clearInside(patterns(), pattern, *known, mask);
 }
 
 void VisibilityRecords::learn(unsigned sphere, Surface surface)
@@ -119,33 +151,15 @@ VisibilityRecords::Surface VisibilityRecords::findSurface(unsigned sphere)
   if (!overlaps.buried && !overlaps.caps.empty())
   {
     surface = Surface::Cut;
-    // Two threads may make the same at once; both are equal, and one is dropped.
-    std::unique_ptr<CutSphere> made = makeCut(sphere, overlaps.caps);
-    CutSphere* cut = nullptr;
-    if (cuts_[sphere].compare_exchange_strong(cut, made.get(), std::memory_order_acq_rel))
-    {
-      cut = made.get();
-      ownedCuts_.push_back(std::move(made));
-    }
-    // Both publish the bits: the thread that came second may go on before the first one does.
-    exposures_[sphere].store(cut->exposure.bits.data(), std::memory_order_release);
+    thread_local RimFinder finder;
+    std::pmr::memory_resource& memory = *memory_.ofThread();
+    const TexelRims* known = nullptr;
+    // Two threads may make the same at once; both are equal, and one is not used.
+    const TexelRims* made = copyTo(memory, finder.list(overlaps.caps), texels_.groups());
+    rims_[sphere].compare_exchange_strong(known, made, std::memory_order_acq_rel);
   }
   surface_[sphere].store(surface, std::memory_order_release);
   return surface;
-}
-
-std::unique_ptr<CutSphere> VisibilityRecords::makeCut(
-  unsigned sphere, const std::vector<BuriedCap>& caps)
-{
-  std::unique_ptr<CutSphere> cut(
-    new CutSphere{ sphere, caps, TexelExposure(memory_.ofThread()), {} });
-  exposeTexels(texels_, patterns_, cut->caps, cut->exposure);
-  if (epoch_ > 0)
-  {
-    cut->pastWeights.assign(cut->exposure.rimGroups.size() * GroupSize, 0.0f);
-    addOverPoints(*cut, open_.pastPatterns, cut->pastWeights.data());
-  }
-  return cut;
 }
 
 float* VisibilityRecords::makeSums(std::size_t count)
@@ -156,23 +170,41 @@ float* VisibilityRecords::makeSums(std::size_t count)
   return sums;
 }
 
-VisibilityRecords::Chunk& VisibilityRecords::findOrMakeChunk(unsigned place)
+/// Most spheres that are looked at show points inside others alone; only for those that are seen it
+/// is worth while to tell texels apart.
+void VisibilityRecords::tellTexelsApart(unsigned sphere)
 {
-  std::atomic<Chunk*>& chunk = chunks_[place / ChunkSpheres];
-  Chunk* known = chunk.load(std::memory_order_acquire);
+  const TexelRims* known = rims(sphere);
+  if (known == nullptr || known->areToldApart())
+  {
+    return;
+  }
+  // Two threads may do the same at once; it does not matter whose result stays.
+  thread_local RimFinder finder;
+  std::pmr::memory_resource& memory = *memory_.ofThread();
+  rims_[sphere].store(
+    copyTo(memory, finder.find(texels_, *known), texels_.groups()), std::memory_order_release);
+}
+
+VisibilityRecords::Record& VisibilityRecords::findOrMakeRecord(unsigned place)
+{
+  std::atomic<Record*>& record = records_[place];
+  Record* known = record.load(std::memory_order_acquire);
   if (known != nullptr)
   {
     return *known;
   }
   // Two threads may make the same at once; both are equal, and one is not used.
-  Chunk* made = new (memory_.allocate<Chunk>(1)) Chunk{ makeSums(ChunkSpheres),
-    memory_.allocate<GroupMask>(AxesPerBlock * ChunkSpheres * texels_.groups()) };
-  return *(chunk.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
+  Record* made = new (memory_.allocate<Record>(1))
+    Record{ memory_.allocate<GroupMask>(AxesPerBlock * texels_.groups()), makeSums(1),
+      watched_[place] != 0 ? makeSums(ErrorSubsets) : nullptr };
+  return *(record.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 
 void VisibilityRecords::keep(
   unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask)
 {
+  tellTexelsApart(sphere);
   if (!isListed(sphere))
   {
     return;
@@ -182,13 +214,12 @@ void VisibilityRecords::keep(
     log_->keep(sphere, axis, upward, facing, mask);
     return;
   }
-  Chunk& chunk = findOrMakeChunk(placeOf_[sphere]);
-  const std::size_t place = placeOf_[sphere] % ChunkSpheres;
+  Record& record = findOrMakeRecord(placeOf_[sphere]);
   const std::size_t groups = texels_.groups();
-  GroupMask* kept = chunk.masks + (axis * ChunkSpheres + place) * groups;
-  if (chunk.seen[axis][place] == 0)
+  GroupMask* kept = record.masks + axis * groups;
+  if (record.seen[axis] == 0)
   {
-    chunk.seen[axis][place] = 1;
+    record.seen[axis] = 1;
     std::copy(mask, mask + groups, kept);
     return;
   }
@@ -207,7 +238,7 @@ void VisibilityRecords::addBlock(const std::vector<AxisWeights>& axes, std::size
     addMasked(texels_.groups(), &terms, 1, open_.subsets.data() + subset * texels_.slots());
     for (std::size_t slot = 0; slot < texels_.slots(); ++slot)
     {
-      open_.latestPatterns[TexelPatterns::index(axis.pattern, slot)] += axis.weight[slot];
+      epochs_[epoch_].weights[TexelPatterns::index(axis.pattern, slot)] += axis.weight[slot];
     }
   }
   if (log_)
@@ -215,86 +246,73 @@ void VisibilityRecords::addBlock(const std::vector<AxisWeights>& axes, std::size
     log_->endBlock(axes, subset);
     return;
   }
-  tbb::parallel_for(std::size_t(0), chunks_.size(),
-    [&](std::size_t i)
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, records_.size(), 64),
+    [&](const tbb::blocked_range<std::size_t>& places)
     {
-      if (chunks_[i].load(std::memory_order_relaxed) != nullptr)
+      constexpr std::size_t ahead = 4;
+      for (std::size_t place = places.begin(); place != places.end(); ++place)
       {
-        addChunk(i, axes, subset);
+        prefetchRecord(std::min(place + ahead, places.end() - 1));
+        if (Record* record = records_[place].load(std::memory_order_relaxed))
+        {
+          addTo(*record, axes, subset);
+        }
       }
     });
 }
 
-void VisibilityRecords::addChunk(
-  std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset)
+void VisibilityRecords::prefetchRecord(std::size_t place) const
 {
-  Chunk& chunk = *chunks_[index].load(std::memory_order_relaxed);
-  const std::size_t groups = texels_.groups();
-  for (std::size_t place = 0; place < ChunkSpheres; ++place)
+  if (const Record* record = records_[place].load(std::memory_order_relaxed))
   {
-    std::array<MaskedTerms, AxesPerBlock> terms;
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < axes.size(); ++k)
-    {
-      if (chunk.seen[k][place] != 0)
-      {
-        chunk.seen[k][place] = 0;
-        terms[count++] = { chunk.masks + (k * ChunkSpheres + place) * groups,
-          axes[k].weight.data() };
-      }
-    }
-    if (count == 0)
-    {
-      continue;
-    }
-    chunk.everSeen[place] = 1;
-    addMasked(groups, terms.data(), count, chunk.sums + place * texels_.slots());
-    if (watched_[index * ChunkSpheres + place] != 0)
-    {
-      float*& sums = chunk.subsets[place];
-      sums = sums != nullptr ? sums : makeSums(ErrorSubsets);
-      addMasked(groups, terms.data(), count, sums + subset * texels_.slots());
-    }
+    hwy::Prefetch(record);
+    hwy::Prefetch(record->sums);
+    hwy::Prefetch(record->masks);
   }
 }
 
-void VisibilityRecords::addOverPoints(
-  const CutSphere& cut, const std::vector<float>& terms, float* sums) const
+void VisibilityRecords::addTo(
+  Record& record, const std::vector<AxisWeights>& axes, std::size_t subset) const
 {
-  const TexelExposure& exposure = cut.exposure;
-  for (std::size_t i = 0; i < exposure.rimGroups.size(); ++i)
+  const std::size_t groups = texels_.groups();
+  std::array<MaskedTerms, AxesPerBlock> terms;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < axes.size(); ++k)
   {
-    const std::uint32_t g = exposure.rimGroups[i];
-    po::addOverPoints(exposure.bits.data() + g, texels_.groups(),
-      terms.data() + TexelPatterns::index(0, g * GroupSize), sums + i * GroupSize);
+    if (record.seen[k] != 0)
+    {
+      record.seen[k] = 0;
+      terms[count++] = { record.masks + k * groups, axes[k].weight.data() };
+    }
+  }
+  if (count > 0)
+  {
+    addMasked(groups, terms.data(), count, record.sums);
+  }
+  if (count > 0 && record.subsets != nullptr)
+  {
+    addMasked(groups, terms.data(), count, record.subsets + subset * texels_.slots());
   }
 }
 
 void VisibilityRecords::nextEpoch()
 {
-  patterns_ = TexelPatterns(texels_, seed_, ++epoch_);
-  tbb::parallel_for(std::size_t(0), ownedCuts_.size(),
-    [&](std::size_t i)
-    {
-      CutSphere& cut = *ownedCuts_[i];
-      cut.pastWeights.resize(cut.exposure.rimGroups.size() * GroupSize, 0.0f);
-      addOverPoints(cut, open_.latestPatterns, cut.pastWeights.data());
-      exposeTexels(texels_, patterns_, cut.caps, cut.exposure);
-    });
-  std::transform(open_.pastPatterns.begin(), open_.pastPatterns.end(), open_.latestPatterns.begin(),
-    open_.pastPatterns.begin(), std::plus<>());
-  std::fill(open_.latestPatterns.begin(), open_.latestPatterns.end(), 0.0f);
+  epoch_ = (epoch_ + 1) % MostEpochs;
+  if (epoch_ == epochs_.size())
+  {
+    beginEpoch();
+  }
 }
 
-const VisibilityRecords::Chunk* VisibilityRecords::chunkIfSeen(unsigned sphere) const
+void VisibilityRecords::beginEpoch()
 {
-  if (!isListed(sphere))
-  {
-    return nullptr;
-  }
-  const unsigned place = placeOf_[sphere];
-  const Chunk* chunk = chunks_[place / ChunkSpheres].load(std::memory_order_acquire);
-  return chunk != nullptr && chunk->everSeen[place % ChunkSpheres] != 0 ? chunk : nullptr;
+  epochs_.push_back({ TexelPatterns(texels_, seed_, static_cast<std::uint32_t>(epochs_.size())),
+    std::vector<float>(TexelPatterns::Count * texels_.slots(), 0.0f) });
+}
+
+const VisibilityRecords::Record* VisibilityRecords::recordOf(unsigned sphere) const
+{
+  return isListed(sphere) ? records_[placeOf_[sphere]].load(std::memory_order_acquire) : nullptr;
 }
 
 const float* VisibilityRecords::sums(unsigned sphere) const
@@ -307,9 +325,8 @@ const float* VisibilityRecords::sums(unsigned sphere) const
   {
     return log_->sums(sphere);
   }
-  const Chunk* chunk = chunkIfSeen(sphere);
-  return chunk != nullptr ? chunk->sums + placeOf_[sphere] % ChunkSpheres * texels_.slots()
-                          : nullptr;
+  const Record* record = recordOf(sphere);
+  return record != nullptr ? record->sums : nullptr;
 }
 
 const float* VisibilityRecords::subsetSums(unsigned sphere) const
@@ -322,32 +339,13 @@ const float* VisibilityRecords::subsetSums(unsigned sphere) const
   {
     return log_->subsetSums(sphere);
   }
-  const Chunk* chunk = chunkIfSeen(sphere);
-  return chunk != nullptr ? chunk->subsets[placeOf_[sphere] % ChunkSpheres] : nullptr;
+  const Record* record = recordOf(sphere);
+  return record != nullptr ? record->subsets : nullptr;
 }
 
-const CutSphere* VisibilityRecords::cut(unsigned sphere) const
+const TexelRims* VisibilityRecords::rims(unsigned sphere) const
 {
-  return cuts_[sphere].load(std::memory_order_acquire);
-}
-
-std::vector<float> VisibilityRecords::outsideWeights(const CutSphere& cut) const
-{
-  const TexelExposure& exposure = cut.exposure;
-  std::vector<float> weights(texels_.slots(), 0.0f);
-  addMasked(texels_.groups(), exposure.ofPattern(0, 0), open_.total.data(), weights.data());
-  std::vector<float> rim = cut.pastWeights;
-  rim.resize(exposure.rimGroups.size() * GroupSize, 0.0f);
-  addOverPoints(cut, open_.latestPatterns, rim.data());
-  for (std::size_t i = 0; i < rim.size(); ++i)
-  {
-    const std::size_t slot = exposure.rimGroups[i / GroupSize] * GroupSize + i % GroupSize;
-    // A texel that no rim crosses: the same sum in another order. Keep the one that the sums are
-    // compared with, so that an open texel is exactly 1.
-    const bool whole = rim[i] > open_.total[slot] * (1 - 1e-4f);
-    weights[slot] = whole ? open_.total[slot] : rim[i];
-  }
-  return weights;
+  return rims_[sphere].load(std::memory_order_acquire);
 }
 
 bool VisibilityRecords::isBuried(unsigned sphere) const

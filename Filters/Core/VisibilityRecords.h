@@ -7,10 +7,8 @@
 #include "RecordMemory.h"
 #include "SweepScene.h"
 #include "SweepTexels.h"
-#include "TexelExposure.h"
+#include "TexelRims.h"
 #include "TextureFormula.h"
-
-#include <tbb/concurrent_vector.h>
 
 #include <array>
 #include <atomic>
@@ -23,29 +21,23 @@ namespace po
 /// masks kept, then summed in order.
 inline constexpr std::size_t AxesPerBlock = 8;
 
-/// What a sweep needs to know of a sphere that others overlap.
-struct CutSphere
-{
-  unsigned sphere; ///< its index in the SweepScene
-  std::vector<BuriedCap> caps;
-  TexelExposure exposure;
-  std::vector<float>
-    pastWeights; ///< [rimGroups][GroupSize] of exposed points, of ended epochs if any
-};
-
 /// Weights that an open texel gets: what all spheres have in common.
 struct OpenWeights
 {
-  std::vector<float> total;          ///< [slots], summed in the order of the directions
-  std::vector<float> subsets;        ///< [ErrorSubsets][slots]
-  std::vector<float> pastPatterns;   ///< in the order of TexelPatterns, ended epochs
-  std::vector<float> latestPatterns; ///< in the order of TexelPatterns, this epoch
+  std::vector<float> total;   ///< [slots], summed in the order of the directions
+  std::vector<float> subsets; ///< [ErrorSubsets][slots]
 };
 
-/// The visibility of the listed spheres, in memory that is taken when one of 16 neighbours is first
-/// seen: at 16 x 16 texels 1.25 KiB a sphere, 1 to 2 KiB more where others overlap it, and 4 KiB
-/// more where it is watched and seen. Out of core the visibility is in a file, and only what
-/// overlaps a sphere takes memory.
+/// Points in the texels, and what they count for.
+struct SweepEpoch
+{
+  TexelPatterns patterns;
+  std::vector<float> weights; ///< of an open point, in the order of TexelPatterns
+};
+
+/// The visibility of the listed spheres, in memory that is taken when one is first seen: at 16 x 16
+/// texels 1.25 KiB, some hundred bytes more where others overlap it, and 4 KiB more where it is
+/// watched. Out of core the visibility is in a file, and only what overlaps a sphere takes memory.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
@@ -74,7 +66,10 @@ public:
   VisibilityRecords(const VisibilityRecords&) = delete;
   VisibilityRecords& operator=(const VisibilityRecords&) = delete;
 
-  [[nodiscard]] const TexelPatterns& patterns() const { return patterns_; }
+  /// The points that are looked at now.
+  [[nodiscard]] const TexelPatterns& patterns() const { return epochs_[epoch_].patterns; }
+  /// All points that were looked at so far.
+  [[nodiscard]] const std::vector<SweepEpoch>& epochs() const { return epochs_; }
   [[nodiscard]] const SweepTexels& texels() const { return texels_; }
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
@@ -82,8 +77,15 @@ public:
   [[nodiscard]] std::size_t spheres() const { return placeOf_.size(); }
   [[nodiscard]] bool isListed(unsigned sphere) const { return placeOf_[sphere] != NoPlace; }
 
-  /// Fetches what clearInside() needs of a sphere, if it has been seen, while other work goes on.
-  void prefetch(unsigned sphere, std::size_t pattern) const;
+  /// Fetches what clearCovered() needs of a sphere, if it has been seen, while other work goes on.
+  void prefetch(unsigned sphere) const;
+
+  /// Clears the bits of texels that are wholly inside, if it is known already what overlaps the
+  /// sphere; false if none is left. Fetches what clearInside() needs then.
+  bool clearCovered(unsigned sphere, GroupMask* mask) const;
+
+  /// Fetches what keep() needs of a sphere that was seen before, while other work goes on.
+  void prefetchMasks(unsigned sphere, std::size_t axis) const;
 
   /// Clears the bits of points that lie inside other spheres, for a sphere that is seen, maybe for
   /// the first time; false if none is left.
@@ -108,7 +110,7 @@ public:
   /// Adds the weights of a block. Its masks are gone then.
   void addBlock(const std::vector<AxisWeights>& axes, std::size_t subset);
 
-  /// Goes on with new points in the texels.
+  /// Goes on with new points in the texels, after MostEpochs with the first ones again.
   void nextEpoch();
 
   /// What is out of core is summed for a part of the list at a time; null where all is in memory.
@@ -118,63 +120,55 @@ public:
   [[nodiscard]] const float* sums(unsigned sphere) const;
   /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
-  /// What overlaps a sphere that was seen; null if nothing does.
-  [[nodiscard]] const CutSphere* cut(unsigned sphere) const;
+  /// What overlaps a sphere that was looked at, told apart if it was seen; null if nothing does.
+  [[nodiscard]] const TexelRims* rims(unsigned sphere) const;
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
-
-  /// The weights of the points of a cut sphere that are outside, [slots]: what an open texel sums
-  /// to.
-  [[nodiscard]] std::vector<float> outsideWeights(const CutSphere& cut) const;
 
   // Of the listed spheres.
   [[nodiscard]] std::uint64_t buried() const;
   [[nodiscard]] std::uint64_t alone() const;
 
 private:
-  static constexpr std::size_t ChunkSpheres = 16;
   static constexpr unsigned NoPlace = ~0u;
+  /// Points of a texel that rims cross, together: 512.
+  static constexpr std::size_t MostEpochs = 16;
 
-  /// In memory: listed spheres that follow each other. Masks and marks are kept by axis: an axis
-  /// writes to neighbours in memory, and two axes never to the same byte.
-  struct Chunk
+  /// In memory: a sphere that was seen. Masks and marks are kept by axis: two axes never write to
+  /// the same byte.
+  struct alignas(64) Record
   {
-    float* sums;      ///< [ChunkSpheres][slots]
-    GroupMask* masks; ///< [AxesPerBlock][ChunkSpheres][groups] where seen
-    std::array<std::array<std::uint8_t, ChunkSpheres>, AxesPerBlock> seen{};
-    std::array<std::uint8_t, ChunkSpheres> everSeen{};
-    std::array<float*, ChunkSpheres> subsets{}; ///< of watched spheres ever seen
+    GroupMask* masks;                              ///< [AxesPerBlock][groups] where seen
+    float* sums;                                   ///< [slots]
+    float* subsets;                                ///< [ErrorSubsets][slots] where watched
+    std::array<std::uint8_t, AxesPerBlock> seen{}; ///< along the axes of this block
   };
 
+  void beginEpoch();
   Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
-  [[nodiscard]] std::unique_ptr<CutSphere> makeCut(
-    unsigned sphere, const std::vector<BuriedCap>& caps);
-  /// Adds, for the points of the rim groups that are outside, terms (in the order of TexelPatterns)
-  /// to sums [rimGroups][GroupSize].
-  void addOverPoints(const CutSphere& cut, const std::vector<float>& terms, float* sums) const;
   [[nodiscard]] float* makeSums(std::size_t count);
-  Chunk& findOrMakeChunk(unsigned place);
-  void addChunk(std::size_t index, const std::vector<AxisWeights>& axes, std::size_t subset);
+  void tellTexelsApart(unsigned sphere);
+  void prefetchRecord(std::size_t place) const;
+  Record& findOrMakeRecord(unsigned place);
+  void addTo(Record& record, const std::vector<AxisWeights>& axes, std::size_t subset) const;
   [[nodiscard]] bool isAlone(unsigned sphere) const;
-  [[nodiscard]] const Chunk* chunkIfSeen(unsigned sphere) const;
+  [[nodiscard]] const Record* recordOf(unsigned sphere) const;
 
   const BakeScene& scene_;
   const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
   std::vector<unsigned> placeOf_; ///< by sphere: its place among the listed ones, or NoPlace
-  std::uint32_t epoch_ = 0;
-  TexelPatterns patterns_;
+  std::vector<SweepEpoch> epochs_;
+  std::size_t epoch_ = 0; ///< the present one
   OpenWeights open_;
   RecordMemory memory_;
-  std::vector<std::atomic<Surface>> surface_;            ///< by sphere
-  std::vector<std::atomic<CutSphere*>> cuts_;            ///< by sphere
-  std::vector<std::atomic<const GroupMask*>> exposures_; ///< by sphere: the bits of cut ones
-  std::vector<std::atomic<Chunk*>> chunks_;              ///< by place / ChunkSpheres
-  tbb::concurrent_vector<std::unique_ptr<CutSphere>> ownedCuts_;
-  std::vector<std::uint8_t> watched_;     ///< flags by place
-  std::unique_ptr<LoggedVisibility> log_; ///< null: in chunks
+  std::vector<std::atomic<Surface>> surface_;       ///< by sphere
+  std::vector<std::atomic<const TexelRims*>> rims_; ///< by sphere: of cut ones
+  std::vector<std::atomic<Record*>> records_;       ///< by place; empty out of core
+  std::vector<std::uint8_t> watched_;               ///< flags by place
+  std::unique_ptr<LoggedVisibility> log_;           ///< null: in records
 };
 }
 

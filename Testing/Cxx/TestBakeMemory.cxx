@@ -59,7 +59,7 @@ TEST(MemoryBudget, AutomaticTakesEmbreeWhereSweepDoesNotFit)
     return std::string(filter->GetMethodUsed());
   };
   std::string error;
-  // 8000 * 64 * 64 texels: 190 MB for Embree, 600 MB for Sweep in memory, 300 MB out of core (see
+  // 8000 * 64 * 64 texels: 190 MB for Embree, 500 MB for Sweep in memory, 300 MB out of core (see
   // bakeMemory).
   EXPECT_EQ(methodUnder(Method::Automatic, 2000, error), "Sweep");
   EXPECT_EQ(error, "");

@@ -6,9 +6,11 @@
 #include "Constants.h"
 #include "EstimateDifference.h"
 #include "Random.h"
+#include "RimFinder.h"
 #include "Sampling.h"
 #include "SweepDirections.h"
 #include "TestScenes.h"
+#include "TexelCaps.h"
 #include "TexelExposure.h"
 #include "TexelMap.h"
 #include "TexelMask.h"
@@ -19,6 +21,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory_resource>
 #include <set>
 #include <thread>
 
@@ -231,8 +234,12 @@ TEST(TexelExposure, TellsThePointsOutsideAllCaps)
   const po::TexelPatterns patterns(texels, 1, 0);
   const std::vector<po::BuriedCap> caps{ { po::normalized(po::Vec3d{ 1, 1, 0 }), 0.3 },
     { { 0, 0, 1 }, 0.9 }, { po::normalized(po::Vec3d{ -1, 0, 1 }), -0.2 } };
+  po::RimFinder finder;
+  const po::TexelRims rims = finder.find(texels, caps);
+  std::pmr::monotonic_buffer_resource memory;
+  const po::TexelRims* kept = po::copyTo(memory, rims, texels.groups());
   po::TexelExposure exposure;
-  po::exposeTexels(texels, patterns, caps, exposure);
+  po::exposeTexels(texels, patterns, rims, exposure);
   for (std::size_t p = 0; p < po::TexelPatterns::Count; ++p)
   {
     const po::GroupMask* masks = exposure.ofPattern(p, texels.groups());
@@ -244,10 +251,14 @@ TEST(TexelExposure, TellsThePointsOutsideAllCaps)
       const po::GroupMask mask = masks[slot / po::GroupSize];
       EXPECT_EQ((mask >> (slot % po::GroupSize) & 1) != 0, !inside) << p << " " << slot;
     }
+    // One pattern alone, of a copy: the same.
+    std::vector<po::GroupMask> mask = texels.allBits();
+    EXPECT_TRUE(po::clearInside(patterns, p, *kept, mask.data()));
+    EXPECT_TRUE(std::equal(mask.begin(), mask.end(), masks));
   }
   // A cap smaller than the distance to any point takes none.
   po::TexelExposure open;
-  po::exposeTexels(texels, patterns, { { { 1, 0, 0 }, 1 - 1e-12 } }, open);
+  po::exposeTexels(texels, patterns, finder.find(texels, { { { 1, 0, 0 }, 1 - 1e-12 } }), open);
   for (std::size_t i = 0; i < open.bits.size(); ++i)
   {
     EXPECT_EQ(open.bits[i], texels.allBits()[i % texels.groups()]);

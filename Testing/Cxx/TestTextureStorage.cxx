@@ -2,6 +2,7 @@
 #include "ComponentPacker.h"
 #include "OcclusionTextures.h"
 #include "TexelMap.h"
+#include "TextureIntake.h"
 #include "TextureSample.h"
 #include "TextureStore.h"
 
@@ -145,6 +146,35 @@ double rmsOf(const std::vector<double>& differences)
     sum += d * d;
   }
   return std::sqrt(sum / static_cast<double>(differences.size()));
+}
+
+TEST(TextureIntake, ParticlesThatNoLightReachesShareOneRow)
+{
+  // Before and after the first open texel, from which on textures are made bytes at once.
+  for (const Storage storage : { Storage::Full, Storage::VariableSize, Storage::OneValue })
+  {
+    BakeSettings settings;
+    settings.textureResolution = 4;
+    settings.storage = storage;
+    TextureIntake intake(settings, 6);
+    const std::vector<float> gray(16, 0.25f), open(16, 1.0f), dark(16, 0.0f);
+    intake.add(gray.data());
+    intake.addDark();
+    intake.add(open.data());
+    intake.addDark();
+    intake.add(dark.data());
+    intake.addDark();
+    std::vector<std::int32_t> rowOf;
+    const EncodedTable table = intake.finish(0, ProcessGroup::alone(), rowOf);
+    ASSERT_EQ(rowOf.size(), 6u);
+    EXPECT_EQ(table.textures, 3u);
+    EXPECT_NE(rowOf[0], rowOf[1]);
+    EXPECT_NE(rowOf[1], rowOf[2]);
+    for (const std::size_t place : { 3u, 4u, 5u })
+    {
+      EXPECT_EQ(rowOf[place], rowOf[1]) << place;
+    }
+  }
 }
 
 TEST(TextureSizes, ArePowersOfTwoUpToTheResolution)
