@@ -17,12 +17,20 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 vtkStandardNewMacro(vtkRenderedLayersReader);
 
 namespace
 {
-constexpr const char* DepthName = "Z";
+/// Z, or as Blender calls it in a file of several layers: ViewLayer.Depth.Z.
+bool isDepth(const std::string& name)
+{
+  const std::string inLayer = ".Depth.Z";
+  return name == "Z" ||
+    (name.size() > inLayer.size() &&
+      name.compare(name.size() - inLayer.size(), inLayer.size(), inLayer) == 0);
+}
 
 /// Row 0 of the file is the top one of the image.
 template <typename Array, typename T>
@@ -106,9 +114,12 @@ int vtkRenderedLayersReader::RequestData(
       const auto array = arrayOf(channel, image.width, image.height);
       array->SetName(channel.name.c_str());
       output->GetPointData()->AddArray(array);
+      if (isDepth(channel.name))
+      {
+        openBackground(array, this->BackgroundFrom);
+        output->GetPointData()->SetActiveScalars(channel.name.c_str());
+      }
     }
-    openBackground(output->GetPointData()->GetArray(DepthName), this->BackgroundFrom);
-    output->GetPointData()->SetActiveScalars(DepthName);
   }
   catch (const std::bad_alloc&)
   {

@@ -5,10 +5,11 @@
  *
  * The output is a 2-D vtkImageData of the file's data window, of the first part that is not deep.
  * Each channel becomes a point array of its name: HALF and FLOAT as float, UINT as unsigned int.
- * Channels at a lower resolution are left out. A channel Z is the active scalar. OpenEXR's rows go
- * downwards, VTK's upwards: the image is upright.
+ * Channels at a lower resolution are left out. The depth is the channel Z, or one whose name ends
+ * in .Depth.Z; it is the active scalar. OpenEXR's rows go downwards, VTK's upwards: the image is
+ * upright.
  *
- * The depth Z is +infinity where nothing is seen, as vtkRenderedLayersWriter writes it and
+ * Depth is +infinity where nothing is seen, as vtkRenderedLayersWriter writes it and
  * vtkDepthSilhouettes expects it; other renderers have a large number there: see BackgroundFrom.
  *
  * If the file cannot be read the output is empty, and one error names it and what is wrong.
@@ -33,7 +34,7 @@ public:
   ///@}
 
   ///@{
-  /// Depths Z of at least so much, in the file's units, are background and become +infinity: 1e10
+  /// Depths of at least so much, in the file's units, are background and become +infinity: 1e10
   /// for Blender's. 0 (default): none.
   vtkSetClampMacro(BackgroundFrom, double, 0, VTK_DOUBLE_MAX);
   vtkGetMacro(BackgroundFrom, double);

@@ -245,7 +245,8 @@ std::vector<int> SharedSilhouettes::searchedTiles(
   nothing.width = width_;
   nothing.height = height_;
   nothing.tileRows.assign(ranges.size(), 0);
-  return tilesToSearch(ranges, rule, nothing, true);
+  const int reach = static_cast<int>(WidestLine); // of any line
+  return tilesToSearch(ranges, rule, reach, nothing, true);
 }
 
 /// Each process gets what all see in its rows and in one more on each side, which edges look at.

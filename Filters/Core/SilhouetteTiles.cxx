@@ -72,28 +72,28 @@ void clearRows(std::uint32_t rows, int tileX, int tileY, SilhouetteImage& image)
   }
 }
 
-/// Can there be an edge between depths of this range? May err towards yes.
-bool mayHaveEdge(const SilhouetteRule& rule, DepthRange range)
+/// Can there be an edge somewhere in `behind`, and what it lies behind in `front`, which has
+/// geometry? May err towards yes.
+bool mayHaveEdge(const SilhouetteRule& rule, DepthRange behind, const DepthRange& front)
 {
-  if (!range.hasGeometry())
-  {
-    return false;
-  }
-  if (range.background && rule.backgroundLines)
+  if (behind.background && rule.backgroundLines)
   {
     if (!std::isfinite(rule.background))
     {
       return true;
     }
-    range.add(rule.background);
+    behind.add(rule.background);
   }
+  const double nearest = front.background && rule.backgroundLines
+    ? std::min(front.nearest, rule.background)
+    : front.nearest;
   // Depths are searched as floats relative to the nearest, which may round the difference up.
-  return (range.farthest - range.nearest) * (1 + 1e-6) > smallestStep(rule);
+  return (behind.farthest - nearest) * (1 + 1e-6) > smallestStep(rule);
 }
 }
 
 std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const SilhouetteRule& rule,
-  SilhouetteImage& image, bool skipTiles)
+  int reach, SilhouetteImage& image, bool skipTiles)
 {
   const int columns = depthTiles(image.width), rows = depthTiles(image.height);
   std::vector<int> searched;
@@ -106,8 +106,12 @@ std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const Silh
     }
     for (int x = 0; x < columns; ++x)
     {
-      const DepthRange range = rangeOf(threeRows, columns, x - 1, x + 2, 0, 1);
-      if (range.hasGeometry() && !rule.drawsNothing() && (!skipTiles || mayHaveEdge(rule, range)))
+      const DepthRange around = rangeOf(threeRows, columns, x - 1, x + 2, 0, 1);
+      // An edge lies behind its jump: here, unless its line may come from beside the tile.
+      const DepthRange& behind =
+        reach > 0 ? around : ranges[static_cast<std::size_t>(y) * columns + x];
+      if (around.hasGeometry() && !rule.drawsNothing() &&
+        (!skipTiles || mayHaveEdge(rule, behind, around)))
       {
         searched.push_back(y * columns + x);
       }

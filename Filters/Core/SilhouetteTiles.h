@@ -41,8 +41,9 @@ void writeRows(
 void clearTile(int tileX, int tileY, SilhouetteImage& image);
 
 /// The tiles that may have lines. Those of the others that had lines before are cleared.
+/// @param reach pixels from an edge that its line can cover
 [[nodiscard]] std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges,
-  const SilhouetteRule& rule, SilhouetteImage& image, bool skipTiles);
+  const SilhouetteRule& rule, int reach, SilhouetteImage& image, bool skipTiles);
 
 /// A tile that may have lines.
 struct SearchedTile
@@ -66,7 +67,8 @@ SilhouetteCounters paintTiles(const DepthSource& source, const SilhouetteRule& r
   SilhouetteImage& image, const SilhouetteOptions& options, const MakePainter& makePainter)
 {
   resizeFor(image, source, options.findFronts);
-  const std::vector<int> searched = tilesToSearch(source.ranges(), rule, image, options.skipTiles);
+  const std::vector<int> searched =
+    tilesToSearch(source.ranges(), rule, reach, image, options.skipTiles);
   const auto paintTile = [&](auto& painter, int number)
   {
     const SearchedTile tile = searchedTile(source, number, reach);

@@ -57,6 +57,12 @@ void keepHierarchy(vtkCompositeDataSet& blocks, vtkPolyData& points)
   }
 }
 
+bool BlockLooks::anyTranslucent() const
+{
+  return std::any_of(
+    opacities.begin(), opacities.end(), [](const auto& look) { return look.second < 1; });
+}
+
 void BlockLooks::apply(vtkPolyData& points, vtkRayTracedSphereMapper& mapper) const
 {
   mapper.RemoveAllBlockStyles();

@@ -30,6 +30,8 @@ struct BlockLooks
   std::vector<std::pair<std::string, std::array<double, 3>>> colors;
   std::vector<std::pair<std::string, double>> opacities;
 
+  [[nodiscard]] bool anyTranslucent() const;
+
   /// Sets the mapper's styles of blocks; none where the points have no hierarchy.
   void apply(vtkPolyData& points, vtkRayTracedSphereMapper& mapper) const;
 };
@@ -39,6 +41,7 @@ class AppliedBlockLooks
 {
 public:
   [[nodiscard]] BlockLooks& change() { return looks_.change(); }
+  [[nodiscard]] const BlockLooks& get() const { return looks_.get(); }
 
   void update(vtkRayTracedSphereMapper& mapper);
 

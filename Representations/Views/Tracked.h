@@ -18,6 +18,8 @@ public:
   /// Also before the first use.
   [[nodiscard]] bool isNew() const { return isNew_; }
 
+  [[nodiscard]] const Settings& get() const { return settings_; }
+
   [[nodiscard]] const Settings& use()
   {
     isNew_ = false;

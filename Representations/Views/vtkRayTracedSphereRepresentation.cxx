@@ -18,8 +18,10 @@
 #include "vtkMatrix4x4.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkProperty.h"
 #include "vtkRayTracedSphereMapper.h"
 #include "vtkRenderer.h"
+#include "vtkScalarsToColors.h"
 
 #include <string>
 
@@ -120,7 +122,7 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
   }
   if (request == vtkPVView::REQUEST_UPDATE())
   {
-    this->ProvideData(inInfo);
+    this->ProvideData(inInfo, outInfo);
   }
   else if (request == vtkPVView::REQUEST_RENDER())
   {
@@ -129,7 +131,7 @@ int vtkRayTracedSphereRepresentation::ProcessViewRequest(
   return 1;
 }
 
-void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
+void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo, vtkInformation* outInfo)
 {
   if (this->Internal->Particles)
   {
@@ -139,6 +141,22 @@ void vtkRayTracedSphereRepresentation::ProvideData(vtkInformation* inInfo)
   vtkNew<vtkMatrix4x4> matrix;
   this->Actor->GetMatrix(matrix);
   vtkPVRenderView::SetGeometryBounds(inInfo, this, this->Internal->Bounds, matrix);
+  // What is translucent leaves no depth: processes' pictures are laid over each other then, in the
+  // order of where their particles are.
+  const bool translucent = this->IsTranslucent();
+  outInfo->Set(vtkPVRenderView::NEED_ORDERED_COMPOSITING(), translucent ? 1 : 0);
+  vtkPVRenderView::SetOrderedCompositingConfiguration(
+    inInfo, this, translucent ? vtkPVRenderView::USE_BOUNDS_FOR_REDISTRIBUTION : 0);
+}
+
+/// By what all processes know alike, with particles and without: they must composite alike.
+bool vtkRayTracedSphereRepresentation::IsTranslucent()
+{
+  this->UpdateColoring();
+  const bool byMap =
+    this->Mapper->GetScalarVisibility() != 0 && this->Mapper->GetLookupTable()->IsOpaque() == 0;
+  return byMap || this->Actor->GetProperty()->GetOpacity() < 1 ||
+    this->Internal->Blocks.get().anyTranslucent();
 }
 
 void vtkRayTracedSphereRepresentation::PrepareFrame(vtkInformation* inInfo)

@@ -178,7 +178,8 @@ private:
   void operator=(const vtkRayTracedSphereRepresentation&) = delete;
 
   void PrepareFrame(vtkInformation* inInfo);
-  void ProvideData(vtkInformation* inInfo);
+  void ProvideData(vtkInformation* inInfo, vtkInformation* outInfo);
+  bool IsTranslucent();
   void ReleaseMemory();
   void ShareExtent();
   void UpdateBounds();

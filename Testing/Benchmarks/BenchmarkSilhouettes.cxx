@@ -158,7 +158,7 @@ Camera viewOf(const SphereCloud& cloud, double extent)
 /// Reads the depths of the tiles that may have lines.
 void readDepths(const TracedFrame& frame, const SilhouetteRule& rule, SilhouetteImage& nothing)
 {
-  const std::vector<int> tiles = tilesToSearch(frame.tiles, rule, nothing, true);
+  const std::vector<int> tiles = tilesToSearch(frame.tiles, rule, rule.samples - 1, nothing, true);
   const int columns = depthTiles(frame.width);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 32),
     [&](const tbb::blocked_range<std::size_t>& part)

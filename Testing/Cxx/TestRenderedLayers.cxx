@@ -216,6 +216,8 @@ TEST(RenderedLayers, ComeBackFromTheFile)
   TemporaryFolder folder;
   Image image = emptyImage(3, 2);
   auto depth = addArray<vtkFloatArray>(image, "Z", 1);
+  addArray<vtkFloatArray>(image, "Layer.Depth.Z", 1)->FillValue(1e10F);
+  addArray<vtkFloatArray>(image, "Layer.Normal.Z", 1)->FillValue(1e10F);
   auto normal = addArray<vtkFloatArray>(image, "N", 3);
   auto ids = addArray<vtkIntArray>(image, "id", 1);
   for (int pixel = 0; pixel < 6; ++pixel)
@@ -237,7 +239,9 @@ TEST(RenderedLayers, ComeBackFromTheFile)
     ASSERT_EQ(read->GetDimensions()[0], 3);
     ASSERT_EQ(read->GetDimensions()[1], 2);
     vtkPointData* layers = read->GetPointData();
-    EXPECT_EQ(layers->GetNumberOfArrays(), 5);
+    EXPECT_EQ(layers->GetNumberOfArrays(), 7);
+    EXPECT_EQ(std::isinf(layers->GetArray("Layer.Depth.Z")->GetComponent(3, 0)), from > 0);
+    EXPECT_EQ(layers->GetArray("Layer.Normal.Z")->GetComponent(3, 0), 1e10F);
     EXPECT_EQ(layers->GetScalars(), layers->GetArray("Z"));
     EXPECT_EQ(layers->GetArray("id")->GetDataType(), VTK_UNSIGNED_INT);
     for (int pixel = 0; pixel < 6; ++pixel)
