@@ -14,8 +14,8 @@ namespace po
 {
 namespace
 {
-/// Edge of a cell in mean radii: so wide that particles that touch have others in their cell, and so
-/// narrow that most cells of a small or thin heap lie within it.
+/// Edge of a cell in mean radii: so wide that particles that touch have others in their cell, and
+/// so narrow that most cells of a small or thin heap lie within it.
 constexpr double CellRadii = 4;
 /// Where the grid begins, in cells: not where particles of a lattice lie.
 constexpr double Shift = 0.381966;

@@ -83,8 +83,8 @@ struct EncodedTable
   double maximum = 0; ///< the scale of UInt8Gamma2
   std::vector<std::uint8_t> bytes;
   std::vector<float> floats;
-  PackedFormat packed;   ///< of VariableSize and Compressed
-  double difference = 0; ///< RMS over what is visible of all, between what was baked and stored
+  PackedFormat packed;     ///< of VariableSize and Compressed
+  double difference = 0;   ///< RMS over what is visible of all, between what was baked and stored
   double comparedArea = 0; ///< that this is the RMS over, in spheres
 
   /// Are the textures of different lengths, see PackedFormat?
