@@ -17,6 +17,7 @@
 #include "SweepEstimator.h"
 #include "TexelMap.h"
 #include "TextureRecorder.h"
+#include "TextureSizes.h"
 
 #include <algorithm>
 #include <cmath>

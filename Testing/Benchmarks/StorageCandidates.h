@@ -2,39 +2,12 @@
 #ifndef po_StorageCandidates_h
 #define po_StorageCandidates_h
 
-#include "OcclusionTextures.h"
-#include "TexturePacker.h"
-#include "TextureTable.h"
+#include "StoredTextures.h"
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <string>
 #include <vector>
 
 namespace po
 {
-/// Textures as they were baked, in floats.
-struct Baked
-{
-  int resolution = 0;
-  TextureTable table{ 1, 0 };
-  std::vector<std::int32_t> rowOf; ///< of each particle
-  std::vector<float> mean;         ///< of each particle
-  double maximum = 0;
-  double noise = 0; ///< RMS error that the bake has at least
-};
-
-/// One way to store them.
-struct Candidate
-{
-  std::string name;
-  double bytes = 0; ///< of all particles: textures, codebooks, and the index of 4 bytes
-  std::function<void(std::size_t particle, float* texture)> decode;
-  std::shared_ptr<const OcclusionTextures> textures; ///< to time lookups with, or null
-  bool timeFrames = false;
-};
-
 /// The floats themselves.
 [[nodiscard]] Candidate uncompressed(const Baked& baked);
 

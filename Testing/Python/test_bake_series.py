@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Data/Examples/bake_series.py: texture files beside the steps, what is there is skipped, failures are told.
+"""Data/Examples/bake_series.py: texture files beside the steps, what is there is skipped, failures are told,
+and several processes may share a cache.
 
 Usage: pvpython test_bake_series.py PVBATCH
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -33,11 +35,20 @@ class Series(unittest.TestCase):
     def file(self, name):
         return os.path.join(self.folder, name)
 
-    def bake_series(self, *arguments):
+    def start_series(self, *arguments):
         settings = [f"{name}={value}" for name, value in SETTINGS.items()]
-        return subprocess.run(
+        process = subprocess.Popen(
             [PVBATCH, os.path.join(DATA, "Examples", "bake_series.py"), *arguments, "--set", *settings],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600)
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.addCleanup(process.kill)
+        return process
+
+    def finish_series(self, process):
+        output, _ = process.communicate(timeout=600)
+        return subprocess.CompletedProcess(process.args, process.returncode, output)
+
+    def bake_series(self, *arguments):
+        return self.finish_series(self.start_series(*arguments))
 
     def table(self, source):
         data = servermanager.Fetch(source)
@@ -46,7 +57,8 @@ class Series(unittest.TestCase):
     def test_each_step_gets_its_textures(self):
         result = self.bake_series(*self.steps, "--precision", "Float", "--cache", self.file("cache"))
         self.assertEqual(result.returncode, 0, result.stdout)
-        self.assertIn("[2/2]", result.stdout)
+        for line, name in (("[1/2]", "heap"), ("[2/2]", "molecule")):
+            self.assertRegex(result.stdout, re.escape(line) + f" .*{name}.occlusion.exr: [0-9]+ particles, .* s left")
         self.assertEqual(len(os.listdir(self.file("cache"))), 2)
         for step in self.steps:
             particles = OpenDataFile(step)
@@ -64,6 +76,28 @@ class Series(unittest.TestCase):
         self.assertIn("heap.occlusion.exr: is there", again.stdout)
         self.assertIn("none.vtp: failed: there is no such file", again.stdout)
         self.assertTrue(os.path.exists(self.file("molecule.occlusion.exr")))
+
+    def test_processes_share_a_cache(self):
+        folders = [self.file("first"), self.file("second")]
+        for folder in folders:
+            os.mkdir(folder)
+        processes = [self.start_series(*self.steps, "--output", folder, "--cache", self.file("cache"))
+                     for folder in folders]
+        for result in [self.finish_series(process) for process in processes]:
+            self.assertEqual(result.returncode, 0, result.stdout)
+        # Whoever was first, a step has one entry, and nothing half-written is left.
+        entries = os.listdir(self.file("cache"))
+        self.assertEqual([os.path.splitext(entry)[1] for entry in entries], 2 * [".pobake"])
+        for step in self.steps:
+            name = os.path.splitext(os.path.basename(step))[0] + ".occlusion.exr"
+            first, second = (self.table(LoadOcclusionTexturesEXR(
+                Input=OpenDataFile(step), FileName=os.path.join(folder, name))) for folder in folders)
+            self.assertEqual(first.tolist(), second.tolist())
+            kept = SphereAmbientOcclusion(
+                Input=OpenDataFile(step), UseCache=1, CacheDirectory=self.file("cache"), **SETTINGS)
+            kept.UpdatePipeline()
+            kept.UpdatePropertyInformation()
+            self.assertEqual(kept.GetPropertyValue("LoadedFromCache"), 1)
 
 
 if __name__ == "__main__":
