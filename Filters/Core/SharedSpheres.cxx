@@ -2,6 +2,7 @@
 #include "SharedSpheres.h"
 
 #include "MortonCurve.h"
+#include "SharedWords.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -33,12 +34,7 @@ void append(const Value& value, Words& words)
 template <typename Value>
 std::vector<Value> valuesOf(const Words& words)
 {
-  std::vector<Value> values(words.size() * sizeof(std::uint64_t) / sizeof(Value));
-  if (!values.empty())
-  {
-    std::memcpy(values.data(), words.data(), values.size() * sizeof(Value));
-  }
-  return values;
+  return valuesAt<Value>(words.data(), words.size() * WordBytes / sizeof(Value));
 }
 
 /// Three corners, and a number that makes the size even.

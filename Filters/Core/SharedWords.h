@@ -31,6 +31,18 @@ void appendValues(const std::vector<Value>& values, ProcessGroup::Words& words)
     std::memcpy(words.data() + end, values.data(), bytes);
   }
 }
+
+/// `count` values that appendValues() has written.
+template <typename Value>
+[[nodiscard]] std::vector<Value> valuesAt(const std::uint64_t* words, std::size_t count)
+{
+  std::vector<Value> values(count);
+  if (count > 0)
+  {
+    std::memcpy(values.data(), words, count * sizeof(Value));
+  }
+  return values;
+}
 }
 
 #endif

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 namespace po
 {
@@ -222,9 +221,7 @@ void SweepDivision::read(const Words& letters, const std::vector<AxisWeights>& a
     [&](std::size_t i)
     {
       const std::uint64_t* part = letters.data() + parts[i];
-      MaskWords codes(part[1]);
-      std::memcpy(codes.data(), part + HeaderWords, codes.size() * sizeof(std::uint16_t));
-      readMasks(part[0], axes[part[0]], codes);
+      readMasks(part[0], axes[part[0]], valuesAt<std::uint16_t>(part + HeaderWords, part[1]));
     });
 }
 
