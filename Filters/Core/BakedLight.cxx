@@ -30,7 +30,7 @@ std::vector<SharedDirection> raysTowards(
 }
 
 BakedLight::BakedLight(const BakeScene& scene, const std::vector<unsigned>& particles,
-  const BakeSettings& settings, Progress& progress)
+  const BakeSettings& settings, bool outOfCore, Progress& progress)
   : scene_(scene)
   , particles_(particles)
   , intensity_(static_cast<float>(settings.light->intensity))
@@ -43,8 +43,8 @@ BakedLight::BakedLight(const BakeScene& scene, const std::vector<unsigned>& part
 {
   if (!scene.hasMesh())
   {
-    sweep_.emplace(
-      scene, particles, texels_, settings.seed, towards(*settings.light), distance_, progress);
+    sweep_.emplace(scene, particles, texels_, settings.seed, towards(*settings.light), distance_,
+      outOfCore, progress);
   }
 }
 
@@ -58,27 +58,38 @@ BakedLight::Workspace BakedLight::makeWorkspace() const
 
 RawTextures BakedLight::addTo(const RawTextures& textures, Progress& progress)
 {
-  const std::size_t texels = formula_.texels();
-  values_.resize(textures.count * texels);
+  values_.resize(textures.count * formula_.texels());
   shares_.resize(values_.size());
-  tbb::parallel_for(std::size_t(0), textures.count,
-    [&](std::size_t i)
-    {
-      if (!progress.advance(0))
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < textures.count; first += count)
+  {
+    const std::size_t known =
+      sweep_ ? sweep_->loadFor(textures.firstParticle + first) : textures.count;
+    count = std::min(known, textures.count - first);
+    tbb::parallel_for(first, first + count,
+      [&](std::size_t place)
       {
-        return;
-      }
-      Workspace& work = workspaces_.local();
-      look(particles_[textures.firstParticle + i], work);
-      for (std::size_t texel = 0; texel < texels; ++texel)
-      {
-        const std::size_t place = i * texels + texel;
-        const float both = textures.values[place] + intensity_ * work.light[texel];
-        values_[place] = both / (1 + intensity_);
-        shares_[place] = work.shares[texel];
-      }
-    });
+        if (progress.advance(0))
+        {
+          addTo(textures, place);
+        }
+      });
+  }
   return { textures.firstParticle, textures.count, values_.data(), shares_.data() };
+}
+
+/// @param place among the textures
+void BakedLight::addTo(const RawTextures& textures, std::size_t place)
+{
+  Workspace& work = workspaces_.local();
+  look(particles_[textures.firstParticle + place], work);
+  const std::size_t texels = formula_.texels();
+  for (std::size_t texel = 0; texel < texels; ++texel)
+  {
+    const std::size_t i = place * texels + texel;
+    values_[i] = (textures.values[i] + intensity_ * work.light[texel]) / (1 + intensity_);
+    shares_[i] = work.shares[texel];
+  }
 }
 
 /// Fills D and the outside share of each texel of a particle.

@@ -37,8 +37,9 @@ public:
   /// Sweeps, if it can; returns early when `progress` says so.
   /// @param particles whose textures are made, by their number in the scene
   /// @param settings with a light. All must outlive this.
+  /// @param outOfCore what the light reaches is kept in a temporary file
   BakedLight(const BakeScene& scene, const std::vector<unsigned>& particles,
-    const BakeSettings& settings, Progress& progress);
+    const BakeSettings& settings, bool outOfCore, Progress& progress);
 
   /// The textures with the light in them, in parallel; good until the next call. Outside shares are
   /// found anew: where an estimator finds no light it need not look for them.
@@ -62,6 +63,7 @@ private:
   };
 
   [[nodiscard]] Workspace makeWorkspace() const;
+  void addTo(const RawTextures& textures, std::size_t place);
   void look(unsigned id, Workspace& work) const;
   [[nodiscard]] const float* sumsOf(unsigned id, Workspace& work) const;
   void trace(unsigned id, Workspace& work) const;

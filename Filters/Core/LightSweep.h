@@ -8,7 +8,10 @@
 #include "SweepTexels.h"
 #include "VisibilityRecords.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace po
@@ -26,19 +29,25 @@ public:
   /// @param texels with the points of TexelPatterns(texels, seed, 0). All must outlive this.
   /// @param direction unit vector towards the light
   /// @param distance spheres within it block light: local, infinite when unbounded
+  /// @param outOfCore what is seen is kept in a temporary file (see LoggedVisibility)
   LightSweep(const BakeScene& scene, const std::vector<unsigned>& particles,
-    const SweepTexels& texels, std::uint64_t seed, Vec3d direction, float distance,
+    const SweepTexels& texels, std::uint64_t seed, Vec3d direction, float distance, bool outOfCore,
     Progress& progress);
 
+  /// Makes the sums of a place of the list known, in place of those of others.
+  /// @return of how many places from there on they are; may be more than there are
+  [[nodiscard]] std::size_t loadFor(std::size_t place);
+
   /// [slots] max(0, n.l), summed over those points of a texel that are outside all spheres and that
-  /// the light reaches; null for a particle that it does not reach.
+  /// the light reaches; null for a particle that it does not reach. It must be known, see above.
   [[nodiscard]] const float* sums(unsigned particle) const;
 
 private:
   SweepScene order_;
   Background white_;
-  std::vector<std::uint8_t> alone_; ///< none
-  VisibilityRecords records_;
+  std::vector<std::uint8_t> alone_;          ///< none
+  std::optional<VisibilityRecords> records_; ///< in memory
+  std::unique_ptr<LoggedVisibility> log_;    ///< out of core
 };
 }
 

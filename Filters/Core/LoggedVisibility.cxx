@@ -27,11 +27,17 @@ constexpr std::size_t GatheredWords = std::size_t(1) << 22;
 constexpr std::size_t LeastBuffer = 512; // words
 constexpr std::size_t MostBuffer = 8192;
 
-std::size_t choosePlacesPerPart(std::size_t places, std::size_t slots)
+/// @param sums of a place
+std::size_t choosePlacesPerPart(std::size_t places, std::size_t sums)
 {
-  const std::size_t least = std::max<std::size_t>(1, LeastSums / slots);
-  const std::size_t most = std::max(least, std::min(MostPlaces, MostSums / slots));
+  const std::size_t least = std::max<std::size_t>(1, LeastSums / sums);
+  const std::size_t most = std::max(least, std::min(MostPlaces, MostSums / sums));
   return std::clamp(places / WantedParts, std::min(least, MostPlaces), std::min(most, MostPlaces));
+}
+
+std::size_t sumsOfPlace(std::size_t slots, LoggedVisibility::Watch watch)
+{
+  return slots * (watch == LoggedVisibility::Watch::All ? 1 + ErrorSubsets : 1);
 }
 
 std::size_t chooseBufferWords(std::size_t parts)
@@ -43,9 +49,11 @@ std::size_t chooseBufferWords(std::size_t parts)
 }
 
 LoggedVisibility::LoggedVisibility(const SweepTexels& texels, const std::vector<unsigned>& spheres,
-  std::size_t size, const std::vector<unsigned>& watched)
+  std::size_t size, Watch watch, const std::vector<unsigned>& watched)
   : texels_(texels)
-  , placesPerPart_(choosePlacesPerPart(spheres.size(), texels.slots()))
+  , watch_(watch)
+  , places_(spheres.size())
+  , placesPerPart_(choosePlacesPerPart(places_, sumsOfPlace(texels.slots(), watch)))
   , placeOf_(size, NoPlace)
   , bufferWords_(chooseBufferWords(spheres.size() / placesPerPart_ + 1))
   , buffers_(std::vector<Buffer>(spheres.size() / placesPerPart_ + 1))
@@ -66,7 +74,7 @@ LoggedVisibility::LoggedVisibility(const SweepTexels& texels, const std::vector<
       others.push_back(place);
     }
   }
-  for (const unsigned sphere : watched)
+  for (const unsigned sphere : watch == Watch::Some ? watched : std::vector<unsigned>())
   {
     subsets_[placeOf_[sphere]];
   }
@@ -133,6 +141,17 @@ void LoggedVisibility::endBlock(const std::vector<AxisWeights>& axes, std::size_
   {
     axes_.push_back({ weights, subset });
   }
+  part_ = NoPart;
+}
+
+std::size_t LoggedVisibility::loadFor(std::size_t place)
+{
+  const std::size_t part = place / placesPerPart_;
+  if (part != part_)
+  {
+    load(part);
+  }
+  return std::min(placesPerPart_ - place % placesPerPart_, places_ - place);
 }
 
 void LoggedVisibility::load(std::size_t part)
@@ -160,10 +179,11 @@ void LoggedVisibility::load(std::size_t part)
 
 void LoggedVisibility::beginPart(std::size_t part)
 {
-  buffers_.clear(); // nothing is written any more
+  buffers_.clear(); // empty between two blocks, but they take memory
   part_ = part;
   seen_.assign(placesPerPart_, 0);
   sums_.assign(placesPerPart_ * texels_.slots(), 0.0f);
+  subsetSums_.assign(watch_ == Watch::All ? ErrorSubsets * sums_.size() : 0, 0.0f);
   subsetsOfPlace_.assign(placesPerPart_, nullptr);
   for (auto& [place, subsets] : subsets_)
   {
@@ -223,6 +243,11 @@ void LoggedVisibility::addMask(std::size_t place, const SweptAxis& axis, const G
   seen_[place] = 1;
   const float* weight = axis.weights.weight.data();
   addMasked(texels_.groups(), mask, weight, sums_.data() + place * texels_.slots());
+  if (!subsetSums_.empty())
+  {
+    const std::size_t row = ErrorSubsets * place + axis.subset;
+    addMasked(texels_.groups(), mask, weight, subsetSums_.data() + row * texels_.slots());
+  }
   if (Subsets* subsets = subsetsOfPlace_[place])
   {
     subsets->seen = true;
@@ -261,6 +286,12 @@ const float* LoggedVisibility::sums(unsigned sphere) const
 
 const float* LoggedVisibility::subsetSums(unsigned sphere) const
 {
+  if (watch_ == Watch::All)
+  {
+    const float* ofPlace = sums(sphere);
+    return ofPlace != nullptr ? subsetSums_.data() + ErrorSubsets * (ofPlace - sums_.data())
+                              : nullptr;
+  }
   const auto found = subsets_.find(placeOf_[sphere]);
   return found != subsets_.end() && found->second.seen ? found->second.sums.data() : nullptr;
 }

@@ -28,11 +28,20 @@ namespace po
 class LoggedVisibility
 {
 public:
+  /// Of which spheres there are sums by subset.
+  enum class Watch
+  {
+    Some, ///< of those that are named, all the time once their parts were loaded
+    All   ///< of the part that is loaded
+  };
+
   /// @param spheres of the list in its order, by their index in a SweepScene of `size`; some may be
   /// there twice
-  /// @param watched of these
+  /// @param watched of these, with Watch::Some
   LoggedVisibility(const SweepTexels& texels, const std::vector<unsigned>& spheres,
-    std::size_t size, const std::vector<unsigned>& watched);
+    std::size_t size, Watch watch, const std::vector<unsigned>& watched);
+
+  [[nodiscard]] bool isListed(unsigned sphere) const { return placeOf_[sphere] != NoPlace; }
 
   /// Writes what a direction of axis `axis` of the block sees of a listed sphere.
   /// @param upward which of the two directions
@@ -43,18 +52,15 @@ public:
   /// Ends a block of axes, of which keep() told.
   void endBlock(const std::vector<AxisWeights>& axes, std::size_t subset);
 
-  /// How many particles of the list are summed at a time.
-  [[nodiscard]] std::size_t placesPerPart() const { return placesPerPart_; }
-
-  /// Sums the masks of the list's places [part * placesPerPart(), ...), in place of those of
-  /// another part. The sweep must be over.
-  void load(std::size_t part);
+  /// Sums the masks of the part of the list that holds a place, in place of those of another part.
+  /// It must be between two blocks, and is good until the next one begins.
+  /// @return of how many places from this one on the sums are known
+  std::size_t loadFor(std::size_t place);
 
   /// [slots] weights of the directions that are seen, of a sphere of the part that is loaded; null
   /// for one that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
-  /// [ErrorSubsets][slots], of a watched sphere of any part that was loaded; null for one that was
-  /// never seen.
+  /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
 
   /// Bytes of the file.
@@ -62,6 +68,7 @@ public:
 
 private:
   static constexpr unsigned NoPlace = ~0u;
+  static constexpr std::size_t NoPart = ~std::size_t(0);
 
   /// Masks of one axis and part, as they are in the file.
   struct Extent
@@ -93,6 +100,7 @@ private:
   void write(std::size_t place, std::uint32_t axis, bool upward, const GroupMask* facing,
     const GroupMask* mask);
   void flush(std::size_t part, Buffer& buffer);
+  void load(std::size_t part);
   void beginPart(std::size_t part);
   void addExtents(const Extent* first, const Extent* last);
   void addMasks(const std::uint16_t* words, const Extent& extent, std::size_t firstPlace,
@@ -101,6 +109,8 @@ private:
   [[nodiscard]] std::size_t placeInPart(unsigned sphere) const;
 
   const SweepTexels& texels_;
+  Watch watch_;
+  std::size_t places_; ///< of the list
   std::size_t placesPerPart_;
   std::vector<unsigned> placeOf_; ///< first one of each sphere in the list, or NoPlace
   std::unordered_map<unsigned, std::vector<unsigned>> repeats_; ///< by sphere: in other parts
@@ -111,9 +121,10 @@ private:
   std::vector<std::vector<Extent>> extents_;                     ///< by part
   std::mutex extentsMutex_;
   std::vector<SweptAxis> axes_;
-  std::size_t part_ = 0;                 ///< that is loaded
+  std::size_t part_ = NoPart;            ///< that is loaded
   std::vector<std::uint8_t> seen_;       ///< flags by place in it
   std::vector<float> sums_;              ///< by place in it, [places][slots]
+  std::vector<float> subsetSums_;        ///< [places][ErrorSubsets][slots], where all are watched
   std::vector<Subsets*> subsetsOfPlace_; ///< by place in it, null where not watched
 };
 }

@@ -24,10 +24,10 @@ namespace
 class TextureCollector
 {
 public:
-  TextureCollector(const BakeSettings& settings, std::size_t particles)
+  TextureCollector(const BakeSettings& settings, std::size_t particles, bool outOfCore)
     : settings_(settings)
     , neighbours_(settings.textureResolution)
-    , textures_(settings, particles)
+    , textures_(settings, particles, outOfCore)
     , shares_(texelShares(settings.textureResolution))
     , known_(shares_.size())
     , texture_(shares_.size())
@@ -287,11 +287,11 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
   const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress)
 {
   BakeResult result;
-  TextureCollector collector(settings, particles.size());
+  TextureCollector collector(settings, particles.size(), estimator.isOutOfCore());
   std::optional<BakedLight> light;
   if (settings.light)
   {
-    light.emplace(scene, particles, settings, progress);
+    light.emplace(scene, particles, settings, estimator.isOutOfCore(), progress);
     if (progress.aborted())
     {
       result.aborted = true;

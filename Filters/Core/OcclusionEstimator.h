@@ -111,6 +111,9 @@ public:
   /// known.
   [[nodiscard]] virtual double estimatedError() const { return 0; }
 
+  /// Does it keep in temporary files what can be there? Others then do so too.
+  [[nodiscard]] virtual bool isOutOfCore() const { return false; }
+
   /// Upper bound of the working memory, in bytes a texel of all particles.
   [[nodiscard]] virtual double bytesPerTexel() const = 0;
 };

@@ -101,10 +101,17 @@ struct OverlapQuery : Query
   bool outOfMemory; ///< Embree would swallow the exception, and overlaps would be missing
 };
 
-/// How a sphere of radius `radius`, at `d` from one of radius r, cuts the surface of that one. A
-/// surface point c + r n is inside when |r n - d|^2 < R^2, that is n . d > (|d|^2 + r^2 - R^2) /
-/// 2 r.
-void addOverlap(double r, Vec3d d, double radius, Overlaps& result)
+/// A surface point c + r n of a sphere is inside one of radius R at d when |r n - d|^2 < R^2, that
+/// is n . d > (|d|^2 + r^2 - R^2) / 2 r.
+double cosineOfCap(double r, double distance, double radius)
+{
+  // r - R and r + R are taken first: a difference of squares would cancel.
+  const double excess = (r - radius) * (r + radius);
+  return (distance * distance + excess) / (2 * r * distance);
+}
+
+/// How a sphere of radius `radius`, at `d` from one of radius r, cuts the surface of that one.
+void addOverlap(double r, Vec3d d, double radius, unsigned other, Overlaps& result)
 {
   // Most are too far away: told without a root. Where rounding might matter it is told below.
   const double reach = r + radius;
@@ -113,21 +120,19 @@ void addOverlap(double r, Vec3d d, double radius, Overlaps& result)
     return;
   }
   const double distance = length(d);
-  // r - R and r + R are taken first: a difference of squares would cancel.
-  const double excess = (r - radius) * (r + radius);
   if (distance == 0)
   {
-    result.buried = result.buried || excess < 0;
+    result.buried = result.buried || r < radius;
     return;
   }
-  const double cosine = (distance * distance + excess) / (2 * r * distance);
+  const double cosine = cosineOfCap(r, distance, radius);
   if (cosine <= -1)
   {
     result.buried = true;
   }
   else if (cosine < 1)
   {
-    result.caps.push_back({ (1 / distance) * d, cosine });
+    result.caps.push_back({ (1 / distance) * d, cosine, other });
   }
 }
 
@@ -140,8 +145,8 @@ bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
     query->forOthers(arguments,
       [&](unsigned other)
       {
-        addOverlap(
-          spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
+        addOverlap(spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, other,
+          *query->result);
       });
   }
   catch (const std::bad_alloc&)
@@ -222,6 +227,14 @@ bool isWithin(const Brick& brick, Vec3d point, double reach)
     point.y >= brick.low.y - wide && point.y <= brick.high.y + wide &&
     point.z >= brick.low.z - wide && point.z <= brick.high.z + wide;
 }
+}
+
+BuriedCap capBetween(const SphereSet& spheres, unsigned id, unsigned other)
+{
+  const Vec3d d = spheres.center(other) - spheres.center(id);
+  const double distance = length(d);
+  return { (1 / distance) * d,
+    cosineOfCap(spheres.spheres()[id].radius, distance, spheres.spheres()[other].radius), other };
 }
 
 OverlapFinder::OverlapFinder(const SphereSet& spheres)

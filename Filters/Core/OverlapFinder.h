@@ -15,9 +15,13 @@ namespace po
 /// cosine.
 struct BuriedCap
 {
-  Vec3d axis;    ///< unit vector from the sphere's centre towards the neighbour's
-  double cosine; ///< cosine of the cap's half angle, in (-1, 1)
+  Vec3d axis;         ///< unit vector from the sphere's centre towards the neighbour's
+  double cosine;      ///< cosine of the cap's half angle, in (-1, 1)
+  unsigned other = 0; ///< the neighbour
 };
+
+/// That of two spheres which are known to cut each other, with the bits that OverlapFinder finds.
+[[nodiscard]] BuriedCap capBetween(const SphereSet& spheres, unsigned id, unsigned other);
 
 /// What lies of one sphere's surface inside the others.
 struct Overlaps

@@ -41,18 +41,13 @@ std::vector<unsigned> watchedSpheres(const SweepScene& order, std::vector<unsign
   {
     drawWatched(particles, seed);
   }
-  std::transform(particles.begin(), particles.end(), particles.begin(),
-    [&order](unsigned particle) { return order.indexOf(particle); });
-  return particles;
+  return order.indicesOf(std::move(particles));
 }
 
-std::unique_ptr<LoggedVisibility> makeLog(const SweepTexels& texels, const SweepScene& order,
-  const std::vector<unsigned>& particles, const std::vector<unsigned>& watched)
+LoggedVisibility::Watch watchOfLog(ProgressiveSweep::Watch watch)
 {
-  std::vector<unsigned> spheres(particles.size());
-  std::transform(particles.begin(), particles.end(), spheres.begin(),
-    [&order](unsigned particle) { return order.indexOf(particle); });
-  return std::make_unique<LoggedVisibility>(texels, spheres, order.size(), watched);
+  return watch == ProgressiveSweep::Watch::All ? LoggedVisibility::Watch::All
+                                               : LoggedVisibility::Watch::Some;
 }
 
 /// Replaces textures of `count` places of the list from `first` on.
@@ -99,12 +94,15 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, const std::vector<uns
   , particles_(particles)
   , order_(scene.set())
   , texels_(settings.textureResolution)
+  , watch_(options.watch)
   , watched_(watchedSpheres(order_, particles_, settings.seed, options.watch))
   , alone_(aloneFlags(scene, order_,
       options.skips.lonely ? scene.cloud.toLocalReach(settings.maximumDistance) : Unbounded))
   , records_(scene, order_, texels_, settings.seed, order_.flagsOf(particles_), alone_, watched_,
-      options.records == Records::OutOfCore ? makeLog(texels_, order_, particles_, watched_)
-                                            : nullptr)
+      options.records == Records::OutOfCore
+        ? std::make_unique<LoggedVisibility>(texels_, order_.indicesOf(particles_), order_.size(),
+            watchOfLog(options.watch), watched_)
+        : nullptr)
   , sweep_(order_, settings.background, scene.cloud.toLocalReach(settings.maximumDistance),
       records_, options.skips, alone_, scene.group)
   , smooth_(options.smooth)
@@ -150,8 +148,15 @@ std::vector<SquaredError> ProgressiveSweep::squaredErrors() const
 {
   const SweepTextures made = textures();
   std::vector<SquaredError> errors(watched_.size());
-  tbb::parallel_for(std::size_t(0), watched_.size(),
-    [&](std::size_t i) { errors[i] = made.squaredError(watched_[i]); });
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < errors.size(); first += count)
+  {
+    // Those of some are known whatever part is loaded.
+    const std::size_t known = watch_ == Watch::All ? loadFor(first) : errors.size();
+    count = std::min(known, errors.size() - first);
+    tbb::parallel_for(
+      first, first + count, [&](std::size_t i) { errors[i] = made.squaredError(watched_[i]); });
+  }
   return errors;
 }
 
@@ -170,16 +175,7 @@ double ProgressiveSweep::estimatedError() const
 std::size_t ProgressiveSweep::loadFor(std::size_t place) const
 {
   LoggedVisibility* log = records_.log();
-  if (log == nullptr)
-  {
-    return particles_.size();
-  }
-  const std::size_t inPart = place % log->placesPerPart();
-  if (inPart == 0)
-  {
-    log->load(place / log->placesPerPart());
-  }
-  return log->placesPerPart() - inPart;
+  return log != nullptr ? log->loadFor(place) : particles_.size();
 }
 
 void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& progress,

@@ -40,7 +40,7 @@ public:
   enum class Records
   {
     InMemory,
-    OutOfCore ///< in a temporary file; error bars are known when all is handed out
+    OutOfCore ///< in a temporary file; error bars of some are known when all is handed out
   };
 
   struct Options
@@ -98,6 +98,7 @@ private:
   const std::vector<unsigned>& particles_;
   SweepScene order_;
   SweepTexels texels_;
+  Watch watch_;
   std::vector<unsigned> watched_;   ///< by index in `order_`
   std::vector<std::uint8_t> alone_; ///< flags, by index in `order_`
   VisibilityRecords records_;

@@ -22,6 +22,11 @@ const T* copied(std::pmr::memory_resource& memory, const T* first, std::size_t c
 }
 }
 
+RimCap rimCapOf(const BuriedCap& cap)
+{
+  return { cap.axis.as<float>(), static_cast<float>(cap.cosine) };
+}
+
 TexelRims RimFinder::find(const SweepTexels& texels, const std::vector<BuriedCap>& caps)
 {
   return find(texels, list(caps));
@@ -42,7 +47,7 @@ TexelRims RimFinder::list(const std::vector<BuriedCap>& caps)
   for (const BuriedCap& cap : caps)
   {
     capOf_.push_back(static_cast<std::uint32_t>(caps_.size()));
-    caps_.push_back({ cap.axis.as<float>(), static_cast<float>(cap.cosine) });
+    caps_.push_back(rimCapOf(cap));
   }
   rims_.assign(1, { 0, AllOfGroup, static_cast<std::uint32_t>(caps_.size()) });
   return { nullptr, rims_.data(), 1, capOf_.data(), caps_.data() };
@@ -73,6 +78,7 @@ void RimFinder::listByGroup()
   rims_.clear();
   capOf_.clear();
   caps_.clear();
+  used_.clear();
   const std::size_t groups = outside_.size();
   places_.assign(all_.size(), Unlisted);
   for (std::size_t g = 0; g < groups; ++g)
@@ -90,6 +96,7 @@ void RimFinder::listByGroup()
       {
         places_[i] = static_cast<std::uint32_t>(caps_.size());
         caps_.push_back(all_[i]);
+        used_.push_back(static_cast<std::uint32_t>(i));
       }
       capOf_.push_back(places_[i]);
     }

@@ -12,6 +12,9 @@
 
 namespace po
 {
+/// A cap in single precision, as points are tested against it.
+[[nodiscard]] RimCap rimCapOf(const BuriedCap& cap);
+
 /// Finds the texels that caps cover and those that their rims cross, for particle after particle.
 class RimFinder
 {
@@ -20,6 +23,9 @@ public:
   TexelRims find(const SweepTexels& texels, const std::vector<BuriedCap>& caps);
   /// Tells texels apart.
   TexelRims find(const SweepTexels& texels, const TexelRims& caps);
+
+  /// Of the caps that find() was given, those that are among its result, by their places.
+  [[nodiscard]] const std::vector<std::uint32_t>& capsUsed() const { return used_; }
 
   /// The caps as they are: texels are not told apart.
   /// @return valid until the next call
@@ -34,6 +40,7 @@ private:
   std::vector<GroupMask> outside_;
   std::vector<GroupMask> parts_;      ///< [caps][groups] those of which a cap may cover a part
   std::vector<std::uint32_t> places_; ///< of all caps in caps_
+  std::vector<std::uint32_t> used_;   ///< places of these in all_
   std::vector<RimGroup> rims_;
   std::vector<std::uint32_t> capOf_;
   std::vector<RimCap> caps_; ///< of these

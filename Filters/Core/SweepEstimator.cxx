@@ -33,6 +33,12 @@ int moreDirections(int directions, double excess)
   return static_cast<int>(std::min<double>(total, SweepEstimator::MaximumDirections));
 }
 
+ProgressiveSweep::Records recordsOf(const SweepOptions& options)
+{
+  return options.outOfCore ? ProgressiveSweep::Records::OutOfCore
+                           : ProgressiveSweep::Records::InMemory;
+}
+
 /// A sweep that goes on until the error is small enough, and may leave the last few particles to
 /// rays.
 class TargetedSweep
@@ -46,8 +52,7 @@ public:
     , options_(options)
     , progress_(progress)
     , sweep_(scene, particles, settings,
-        { options.skips, ProgressiveSweep::Watch::All, ProgressiveSweep::Records::InMemory,
-          options.smooth })
+        { options.skips, ProgressiveSweep::Watch::All, recordsOf(options), options.smooth })
   {
   }
 
@@ -216,10 +221,8 @@ void SweepEstimator::sweepOnce(const BakeScene& scene, const std::vector<unsigne
   const int directions = options_.directions > 0
     ? options_.directions
     : sweepDirectionsForSamples(settings.samplesPerTexel);
-  const auto records =
-    options_.outOfCore ? ProgressiveSweep::Records::OutOfCore : ProgressiveSweep::Records::InMemory;
   ProgressiveSweep sweep(scene, particles, settings,
-    { options_.skips, ProgressiveSweep::Watch::Some, records, options_.smooth });
+    { options_.skips, ProgressiveSweep::Watch::Some, recordsOf(options_), options_.smooth });
   sweep.refine(directions, progress);
   report_.directions = sweep.directions();
   if (!progress.aborted())

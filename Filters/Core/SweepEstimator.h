@@ -14,8 +14,7 @@ struct SweepOptions
   double targetError = 0;   ///< above 0: RMS error to reach, with as many directions as that takes
   bool refineByRays = true; ///< with a target, where that is cheaper; off for measurements
   /// What is seen is kept in a temporary file (see LoggedVisibility). Textures have the same bits.
-  /// With a target error, for which sums are looked at in between, they are kept in memory all the
-  /// same.
+  /// With a target error it is read again for each look at the errors.
   bool outOfCore = false;
   SweepSkips skips = {};
   bool smooth = true; ///< textures, see TextureSmoothing; off for measurements
@@ -66,6 +65,8 @@ public:
   {
     return options_.targetError > 0 ? 26 : (options_.outOfCore ? 3 : 10);
   }
+
+  [[nodiscard]] bool isOutOfCore() const override { return options_.outOfCore; }
 
   [[nodiscard]] double estimatedError() const override { return report_.estimatedError; }
 

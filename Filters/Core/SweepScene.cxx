@@ -99,6 +99,13 @@ void SweepScene::addBlock(unsigned first, unsigned last)
   blocks_.push_back({ 0.5 * (low + high), static_cast<float>(distance * (1 + 1e-6)), radius });
 }
 
+std::vector<unsigned> SweepScene::indicesOf(std::vector<unsigned> sources) const
+{
+  std::transform(sources.begin(), sources.end(), sources.begin(),
+    [this](unsigned source) { return indexOf(source); });
+  return sources;
+}
+
 std::vector<std::uint8_t> SweepScene::flagsOf(const std::vector<unsigned>& sources) const
 {
   std::vector<std::uint8_t> flags(size(), 0);

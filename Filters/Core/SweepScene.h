@@ -68,6 +68,9 @@ public:
     return indexOf_.empty() ? source : indexOf_[source];
   }
 
+  /// The same of several.
+  [[nodiscard]] std::vector<unsigned> indicesOf(std::vector<unsigned> sources) const;
+
   /// [size()] 1 for the spheres that are listed by their places in that set, 0 for others.
   [[nodiscard]] std::vector<std::uint8_t> flagsOf(const std::vector<unsigned>& sources) const;
 

@@ -20,14 +20,24 @@ double brightestOf(const BakeSettings& settings)
     std::holds_alternative<UniformBackground>(settings.background);
   return isKnown ? 1 : std::numeric_limits<double>::infinity();
 }
+
+bool becomesBytes(const BakeSettings& settings)
+{
+  return settings.storage == Storage::Full && settings.encoding == Encoding::UInt8Gamma2;
+}
 }
 
-TextureIntake::TextureIntake(const BakeSettings& settings, std::size_t particles)
+TextureIntake::TextureIntake(const BakeSettings& settings, std::size_t particles, bool outOfCore)
   : settings_(settings)
   , particles_(particles)
   , brightest_(brightestOf(settings))
-  , linear_(settings.storage == Storage::OneValue ? 1 : settings.textureResolution, particles)
+  , linear_(settings.storage == Storage::OneValue ? 1 : settings.textureResolution,
+      outOfCore && becomesBytes(settings) ? 0 : particles)
 {
+  if (outOfCore && becomesBytes(settings))
+  {
+    spilled_.emplace(linear_.texelsPerRow());
+  }
   rowOf_.reserve(particles);
   if (weighsTexels(settings))
   {
@@ -44,12 +54,24 @@ void TextureIntake::add(const float* texture, const float* shares)
 {
   if (!bytes_ && *std::max_element(texture, texture + linear_.texelsPerRow()) >= brightest_)
   {
-    beginBytes();
+    toBytes(brightest_, particles_);
+  }
+  rowOf_.push_back(insert(texture, shares));
+}
+
+std::int32_t TextureIntake::insert(const float* texture, const float* shares)
+{
+  if (bytes_)
+  {
+    return bytes_->insert(texture);
+  }
+  if (spilled_)
+  {
+    return spilled_->insert(texture);
   }
   // One value is stored as it is, whatever is visible of it.
   const bool weigh = weights_ && !hasOneValue(texture, linear_.texelsPerRow());
-  rowOf_.push_back(bytes_ ? bytes_->insert(texture)
-                          : linear_.insert({ texture, weigh ? weights_->of(shares) : nullptr }));
+  return linear_.insert({ texture, weigh ? weights_->of(shares) : nullptr });
 }
 
 void TextureIntake::addDark()
@@ -63,9 +85,16 @@ void TextureIntake::addDark()
   add(std::vector<float>(linear_.texelsPerRow(), 0.0f).data(), nullptr); // one value: not weighed
 }
 
-void TextureIntake::beginBytes()
+/// @param expected how many textures there will be
+void TextureIntake::toBytes(double maximum, std::size_t expected)
 {
-  bytes_.emplace(linear_.resolution(), brightest_, particles_);
+  bytes_.emplace(linear_.resolution(), maximum, expected);
+  if (spilled_)
+  {
+    bytes_->insertAll([this](const auto& visit) { spilled_->forEach(visit); }, rowOf_);
+    spilled_.reset();
+    return;
+  }
   bytes_->insertAll(linear_, rowOf_);
   linear_ = TextureTable(linear_.resolution(), 0);
 }
@@ -73,8 +102,13 @@ void TextureIntake::beginBytes()
 EncodedTable TextureIntake::finish(
   double noise, const ProcessGroup& group, std::vector<std::int32_t>& rowOf)
 {
+  const double ofLinear = spilled_ ? spilled_->largestValue() : linear_.largestValue();
+  const double maximum = group.largest(bytes_ ? brightest_ : ofLinear);
+  if (spilled_)
+  {
+    toBytes(maximum, static_cast<std::size_t>(spilled_->rows()));
+  }
   rowOf = std::move(rowOf_);
-  const double maximum = group.largest(bytes_ ? brightest_ : linear_.largestValue());
   return bytes_ ? bytes_->take()
                 : storeTextures(std::move(linear_), settings_, maximum, noise, group, rowOf);
 }

@@ -4,6 +4,7 @@
 
 #include "BakeSettings.h"
 #include "ProcessGroup.h"
+#include "SpilledTextures.h"
 #include "TextureTable.h"
 
 #include <cstddef>
@@ -18,12 +19,14 @@ namespace po
 /// Bytes stand for shares of the largest value of all. Before a uniform background no value is
 /// above 1, so that the largest is known as soon as one texel is fully open: from then on textures
 /// are made bytes at once, with the same result. Until then, before other backgrounds, and where
-/// textures are stored in another form, linear values are kept, 4 bytes a texel.
+/// textures are stored in another form, linear values are kept, 4 bytes a texel: those that become
+/// bytes in a temporary file, if that is wanted.
 class TextureIntake
 {
 public:
   /// @param particles how many textures to expect
-  TextureIntake(const BakeSettings& settings, std::size_t particles);
+  /// @param outOfCore linear values that become bytes wait in a temporary file
+  TextureIntake(const BakeSettings& settings, std::size_t particles, bool outOfCore = false);
 
   /// Does the storage leave out less where more is visible? What is visible then takes a byte a
   /// texel of particles that are overlapped.
@@ -39,19 +42,21 @@ public:
   /// Brings what was taken into the form that the settings ask for.
   /// @param noise see storeTextures
   /// @param rowOf set to the row of each particle
-  /// Throws WorkStopped.
+  /// Throws WorkStopped, and what ScratchFile throws.
   [[nodiscard]] EncodedTable finish(
     double noise, const ProcessGroup& group, std::vector<std::int32_t>& rowOf);
 
 private:
-  void beginBytes();
+  std::int32_t insert(const float* texture, const float* shares);
+  void toBytes(double maximum, std::size_t expected);
 
   const BakeSettings& settings_;
   std::size_t particles_;
   double brightest_; ///< no value is above it
   TextureTable linear_;
-  std::optional<ByteTable> bytes_;      ///< in place of the linear ones
-  std::optional<TexelWeights> weights_; ///< of storages that weigh texels
+  std::optional<SpilledTextures> spilled_; ///< in place of these
+  std::optional<ByteTable> bytes_;         ///< in place of the linear ones
+  std::optional<TexelWeights> weights_;    ///< of storages that weigh texels
   std::vector<std::int32_t> rowOf_;
   std::optional<std::size_t> dark_; ///< place of a particle that no light reaches
 };

@@ -143,13 +143,23 @@ std::int32_t ByteTable::insert(const float* texture)
 
 void ByteTable::insertAll(const TextureTable& table, std::vector<std::int32_t>& rowOf)
 {
-  std::vector<std::int32_t> newRow(static_cast<std::size_t>(table.rows()));
-  const float* values = table.values().data();
-  for (std::int32_t& target : newRow)
-  {
-    target = insert(values);
-    values += table.texelsPerRow();
-  }
+  insertAll(
+    [&table](const auto& visit)
+    {
+      for (std::int32_t row = 0; row < table.rows(); ++row)
+      {
+        visit(table.texture(row).values);
+      }
+    },
+    rowOf);
+}
+
+void ByteTable::insertAll(
+  const std::function<void(const std::function<void(const float*)>&)>& forEach,
+  std::vector<std::int32_t>& rowOf)
+{
+  std::vector<std::int32_t> newRow;
+  forEach([&](const float* texture) { newRow.push_back(insert(texture)); });
   for (std::int32_t& row : rowOf)
   {
     row = row < 0 ? row : newRow[static_cast<std::size_t>(row)];

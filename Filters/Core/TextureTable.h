@@ -130,6 +130,10 @@ public:
   /// Inserts all textures of a table.
   /// @param rowOf the row of each particle, changed to the rows of this; negative entries stay
   void insertAll(const TextureTable& table, std::vector<std::int32_t>& rowOf);
+  /// The same, of textures that are visited in the order of their rows.
+  /// @param forEach calls its argument for each
+  void insertAll(const std::function<void(const std::function<void(const float*)>&)>& forEach,
+    std::vector<std::int32_t>& rowOf);
 
   /// Gives up what it holds.
   [[nodiscard]] EncodedTable take();

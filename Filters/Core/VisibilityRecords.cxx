@@ -32,7 +32,8 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , order_(order)
   , texels_(texels)
   , seed_(seed)
-  , spheres_(order.size())
+  , spheres_(log ? 0 : order.size())
+  , surfaces_(log ? order.size() : 0)
   , log_(std::move(log))
 {
   open_.total.assign(texels.slots(), 0.0f);
@@ -44,11 +45,17 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   for (unsigned sphere = 0; sphere < order.size(); ++sphere)
   {
     const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
-    SphereState& state = spheres_[sphere];
-    state.place = listed[sphere] != 0 ? places++ : NoPlace;
-    state.surface = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
+    surfaceOf(sphere) = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
+    if (!log_)
+    {
+      spheres_[sphere].place = listed[sphere] != 0 ? places++ : NoPlace;
+    }
   }
-  if (!log_)
+  if (log_)
+  {
+    compactRims_ = std::make_unique<CompactRims>(scene.set(), texels, order.size());
+  }
+  else
   {
     std::vector<std::uint8_t> isWatched(places, 0);
     for (const unsigned sphere : watched)
@@ -61,7 +68,11 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
 
 void VisibilityRecords::prefetch(unsigned sphere) const
 {
-  if (const TexelRims* rims = spheres_[sphere].rims.load(std::memory_order_relaxed))
+  if (compactRims_)
+  {
+    compactRims_->prefetch(sphere);
+  }
+  else if (const TexelRims* rims = spheres_[sphere].rims.load(std::memory_order_relaxed))
   {
     hwy::Prefetch(rims);
     hwy::Prefetch(reinterpret_cast<const char*>(rims) + 64);
@@ -70,6 +81,10 @@ void VisibilityRecords::prefetch(unsigned sphere) const
 
 bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask) const
 {
+  if (compactRims_)
+  {
+    return !compactRims_->isToldApart(sphere) || compactRims_->clearCovered(sphere, mask);
+  }
   const TexelRims* known = rims(sphere);
   if (known != nullptr && known->areToldApart())
   {
@@ -97,10 +112,10 @@ void VisibilityRecords::prefetchMasks(unsigned sphere, std::size_t axis) const
 
 bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask)
 {
-  const TexelRims* known = rims(sphere);
+  const TexelRims* known = compactRims_ ? nullptr : rims(sphere);
   if (known == nullptr)
   {
-    Surface surface = spheres_[sphere].surface.load(std::memory_order_acquire);
+    Surface surface = surfaceOf(sphere).load(std::memory_order_acquire);
     if (surface == Surface::Unknown)
     {
       surface = findSurface(sphere);
@@ -110,6 +125,10 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
       // What shows of one that only occludes inside others hides nothing that is outside.
       return surface != Surface::Buried;
     }
+    if (compactRims_)
+    {
+      return compactRims_->clearInside(sphere, order_.source(sphere), patterns(), pattern, mask);
+    }
     known = rims(sphere);
   }
   return po::clearInside(patterns(), pattern, *known, mask);
@@ -117,13 +136,13 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
 
 void VisibilityRecords::learn(unsigned sphere, Surface surface)
 {
-  if (spheres_[sphere].surface.load(std::memory_order_relaxed) != Surface::Unknown)
+  if (surfaceOf(sphere).load(std::memory_order_relaxed) != Surface::Unknown)
   {
     return;
   }
   if (surface == Surface::Whole || surface == Surface::Buried)
   {
-    spheres_[sphere].surface.store(surface, std::memory_order_release);
+    surfaceOf(sphere).store(surface, std::memory_order_release);
   }
   else if (surface == Surface::Cut && isListed(sphere))
   {
@@ -141,21 +160,35 @@ VisibilityRecords::Surface VisibilityRecords::findSurface(unsigned sphere)
   if (!overlaps.buried && !overlaps.caps.empty())
   {
     surface = Surface::Cut;
-    thread_local RimFinder finder;
-    std::pmr::memory_resource& memory = *memory_.ofThread();
-    const TexelRims* known = nullptr;
-    // Two threads may make the same at once; both are equal, and one is not used.
-    const TexelRims* made = copyTo(memory, finder.list(overlaps.caps), texels_.groups());
-    spheres_[sphere].rims.compare_exchange_strong(known, made, std::memory_order_acq_rel);
+    listCaps(sphere, overlaps.caps);
   }
-  spheres_[sphere].surface.store(surface, std::memory_order_release);
+  surfaceOf(sphere).store(surface, std::memory_order_release);
   return surface;
+}
+
+void VisibilityRecords::listCaps(unsigned sphere, const std::vector<BuriedCap>& caps)
+{
+  if (compactRims_)
+  {
+    compactRims_->list(sphere, order_.source(sphere), caps);
+    return;
+  }
+  thread_local RimFinder finder;
+  const TexelRims* known = nullptr;
+  // Two threads may make the same at once; both are equal, and one is not used.
+  const TexelRims* made = copyTo(*memory_.ofThread(), finder.list(caps), texels_.groups());
+  spheres_[sphere].rims.compare_exchange_strong(known, made, std::memory_order_acq_rel);
 }
 
 /// Most spheres that are looked at show points inside others alone; only for those that are seen it
 /// is worth while to tell texels apart.
 void VisibilityRecords::tellTexelsApart(unsigned sphere)
 {
+  if (compactRims_)
+  {
+    compactRims_->tellApart(sphere, order_.source(sphere));
+    return;
+  }
   const TexelRims* known = rims(sphere);
   if (known == nullptr || known->areToldApart())
   {
@@ -247,26 +280,26 @@ const float* VisibilityRecords::subsetSums(unsigned sphere) const
 
 const TexelRims* VisibilityRecords::rims(unsigned sphere) const
 {
-  return spheres_[sphere].rims.load(std::memory_order_acquire);
+  return compactRims_ ? compactRims_->find(sphere, order_.source(sphere))
+                      : spheres_[sphere].rims.load(std::memory_order_acquire);
 }
 
 bool VisibilityRecords::isBuried(unsigned sphere) const
 {
-  return spheres_[sphere].surface.load(std::memory_order_acquire) == Surface::Buried;
+  return surfaceOf(sphere).load(std::memory_order_acquire) == Surface::Buried;
 }
 
 bool VisibilityRecords::isAlone(unsigned sphere) const
 {
-  return spheres_[sphere].surface.load(std::memory_order_relaxed) == Surface::Alone;
+  return surfaceOf(sphere).load(std::memory_order_relaxed) == Surface::Alone;
 }
 
 std::uint64_t VisibilityRecords::countListed(Surface surface) const
 {
   std::uint64_t count = 0;
-  for (unsigned sphere = 0; sphere < spheres_.size(); ++sphere)
+  for (unsigned sphere = 0; sphere < spheres(); ++sphere)
   {
-    count +=
-      isListed(sphere) && spheres_[sphere].surface.load(std::memory_order_relaxed) == surface;
+    count += isListed(sphere) && surfaceOf(sphere).load(std::memory_order_relaxed) == surface;
   }
   return count;
 }

@@ -2,6 +2,7 @@
 #ifndef po_VisibilityRecords_h
 #define po_VisibilityRecords_h
 
+#include "CompactRims.h"
 #include "LoggedVisibility.h"
 #include "OcclusionEstimator.h"
 #include "RecordMemory.h"
@@ -13,6 +14,7 @@
 
 #include <atomic>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace po
@@ -33,8 +35,8 @@ struct SweepEpoch
 
 /// The visibility of the listed spheres, in memory that is taken when one is first seen: at 16 x 16
 /// texels 1 KiB, 0.25 for it and its neighbours, some hundred bytes more where others overlap it,
-/// and 4 KiB more where it is watched. Out of core the visibility is in a file, and only what
-/// overlaps a sphere takes memory.
+/// and 4 KiB more where it is watched. Out of core the visibility is in a file, and what overlaps a
+/// sphere takes some dozen bytes.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
@@ -71,8 +73,11 @@ public:
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
   /// Of the SweepScene.
-  [[nodiscard]] std::size_t spheres() const { return spheres_.size(); }
-  [[nodiscard]] bool isListed(unsigned sphere) const { return spheres_[sphere].place != NoPlace; }
+  [[nodiscard]] std::size_t spheres() const { return order_.size(); }
+  [[nodiscard]] bool isListed(unsigned sphere) const
+  {
+    return log_ ? log_->isListed(sphere) : spheres_[sphere].place != NoPlace;
+  }
 
   /// Fetches what clearCovered() needs of a sphere, if it has been seen, while other work goes on.
   void prefetch(unsigned sphere) const;
@@ -91,7 +96,7 @@ public:
   /// For a sphere that is not known to show anything it is not found out.
   [[nodiscard]] Surface surface(unsigned sphere) const
   {
-    return spheres_[sphere].surface.load(std::memory_order_relaxed);
+    return surfaceOf(sphere).load(std::memory_order_relaxed);
   }
   /// Takes what another process has found out. What cuts a sphere is found again, if it is listed
   /// here, or else when that is needed. Threads may call this at once.
@@ -113,11 +118,17 @@ public:
   /// What is out of core is summed for a part of the list at a time; null where all is in memory.
   [[nodiscard]] LoggedVisibility* log() const { return log_.get(); }
 
+  /// Gives up the log, and all else: nothing may be called any more.
+  [[nodiscard]] std::unique_ptr<LoggedVisibility> takeLog() { return std::move(log_); }
+
+  // The sums of a listed sphere; out of core it must be in the part that is loaded.
+
   /// [slots] weights of the directions that are seen; null for a sphere that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
   /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
   /// What overlaps a sphere that was looked at, told apart if it was seen; null if nothing does.
+  /// Out of core it is good until the calling thread's next call of any function.
   [[nodiscard]] const TexelRims* rims(unsigned sphere) const;
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
@@ -131,7 +142,7 @@ private:
   /// Points of a texel that rims cross, together: 512.
   static constexpr std::size_t MostEpochs = 16;
 
-  /// What is looked at together is side by side.
+  /// In memory: what is looked at together is side by side.
   struct SphereState
   {
     std::atomic<const TexelRims*> rims{ nullptr }; ///< of a cut one
@@ -139,7 +150,17 @@ private:
     std::atomic<Surface> surface{ Surface::Unknown };
   };
 
+  [[nodiscard]] const std::atomic<Surface>& surfaceOf(unsigned sphere) const
+  {
+    return log_ ? surfaces_[sphere] : spheres_[sphere].surface;
+  }
+  [[nodiscard]] std::atomic<Surface>& surfaceOf(unsigned sphere)
+  {
+    return log_ ? surfaces_[sphere] : spheres_[sphere].surface;
+  }
+
   void beginEpoch();
+  void listCaps(unsigned sphere, const std::vector<BuriedCap>& caps);
   Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
   void tellTexelsApart(unsigned sphere);
@@ -149,13 +170,15 @@ private:
   const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
-  std::vector<SphereState> spheres_;
+  std::vector<SphereState> spheres_;           ///< empty out of core
+  std::vector<std::atomic<Surface>> surfaces_; ///< of the spheres, out of core
   std::vector<SweepEpoch> epochs_;
   std::size_t epoch_ = 0; ///< the present one
   OpenWeights open_;
   RecordMemory memory_;
   std::unique_ptr<StoredVisibility> stored_; ///< null: in the log
   std::unique_ptr<LoggedVisibility> log_;    ///< null: stored
+  std::unique_ptr<CompactRims> compactRims_; ///< out of core
 };
 }
 
