@@ -143,7 +143,7 @@ void makeTask(BakeInput& input, SphereCloud own, Occluders occluders,
   const Neighbourhood neighbourhood(own.spheres, own.toLocalReach(settings.maximumDistance), group);
   SharedSpheres shared =
     shareSpheres(std::move(own.spheres), own.ghosts, neighbourhood, group, own.centers);
-  own.centers = {};
+  own.centers = std::vector<Vec3d>(); // the task has them, in another order
 
   BakeTask& task = input.task;
   task.cloud.origin = own.origin;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -27,12 +28,12 @@ double memoryOf(const BakeTask& task, const OcclusionEstimator& estimator)
 }
 
 /// A sweep in memory, or out of core where the user wants that or memory would not do.
-SweepEstimator sweepFor(const BakeTask& task)
+SweepOptions sweepFor(const BakeTask& task)
 {
   SweepOptions options;
   options.targetError = task.targetError;
   options.outOfCore = task.outOfCore || memoryOf(task, SweepEstimator(options)) > freeMemory();
-  return SweepEstimator(options);
+  return options;
 }
 
 /// The RMS of what all processes have, each with a weight.
@@ -57,14 +58,24 @@ public:
 
   BakeResult bySweep()
   {
-    const SweepEstimator sweep = sweepFor(task_);
-    requireMemory(memoryOf(task_, sweep), task_.receivers.size());
+    SweepOptions options = sweepFor(task_);
+    requireMemory(memoryOf(task_, SweepEstimator(options)), task_.receivers.size());
     std::vector<unsigned> particles = task_.receivers;
     if (task_.occluders.spheres.empty())
     {
       sortForSweep(task_.cloud, particles);
     }
-    BakeResult result = bake(sweep, particles);
+    auto scene = makeScene();
+    if (!task_.settings.light) // which is mixed in later
+    {
+      options.afterSweep = [&scene]
+      {
+        scene.reset();
+        returnFreeMemory();
+      };
+    }
+    const SweepEstimator sweep(options);
+    BakeResult result = bakeOcclusion(*scene, particles, task_.settings, sweep, progress_);
     finish(result, sweep.report().directions, sweep.report().estimatedError, task_.targetError > 0);
     report_.refined = result.aborted ? 0 : group_.sum(std::uint64_t(sweep.report().refined));
     return result;
@@ -76,7 +87,8 @@ public:
     options.targetError = task_.targetError;
     const EmbreeEstimator embree(options);
     requireMemory(memoryOf(task_, embree), task_.receivers.size());
-    BakeResult result = bake(embree, task_.receivers);
+    BakeResult result =
+      bakeOcclusion(*makeScene(), task_.receivers, task_.settings, embree, progress_);
     finish(result, embree.report().directions, embree.report().estimatedError, false);
     return result;
   }
@@ -85,26 +97,28 @@ public:
   {
     const ReferenceEstimator reference;
     requireMemory(memoryOf(task_, reference), task_.receivers.size());
-    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
+    const auto scene = makeScene();
     double error = 0;
     if (task_.targetError > 0)
     {
       const PilotResult pilot = samplesForError(
-        scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
+        *scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
       task_.settings.samplesPerTexel = pilot.samplesPerTexel;
       error = pilot.estimatedError;
     }
-    BakeResult result = bakeOcclusion(scene, task_.receivers, task_.settings, reference, progress_);
+    BakeResult result =
+      bakeOcclusion(*scene, task_.receivers, task_.settings, reference, progress_);
     finish(result, 0, error, true);
     return result;
   }
 
 private:
-  BakeResult bake(const OcclusionEstimator& estimator, const std::vector<unsigned>& particles)
+  /// Takes over the particles of the task.
+  std::unique_ptr<const BakeScene> makeScene()
   {
-    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
+    auto scene = std::make_unique<const BakeScene>(std::move(task_.cloud), task_.occluders, group_);
     returnFreeMemory(); // of what has read and sorted the particles
-    return bakeOcclusion(scene, particles, task_.settings, estimator, progress_);
+    return scene;
   }
 
   /// @param errorIsOfAll whether the estimator has found it over all processes
@@ -155,7 +169,7 @@ int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
   // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
   const double distance = task.settings.maximumDistance;
   const bool close = distance > 0 && distance <= 2 * task.cloud.scale;
-  const bool full = group.any(memoryOf(task, sweepFor(task)) > freeMemory());
+  const bool full = group.any(memoryOf(task, SweepEstimator(sweepFor(task))) > freeMemory());
   return triangles || close || full ? vtkSphereAmbientOcclusion::Embree
                                     : vtkSphereAmbientOcclusion::Sweep;
 }

@@ -40,7 +40,7 @@ LightSweep::LightSweep(const BakeScene& scene, const std::vector<unsigned>& part
     // Points take turns: each serves one of the axes, which are all the same.
     sweep.run(std::vector<Vec3d>(TexelPatterns::Count, direction), progress);
   }
-  alone_ = {};
+  alone_ = std::vector<std::uint8_t>();
   if (outOfCore)
   {
     log_ = records_->takeLog();

@@ -255,7 +255,6 @@ void LoggedVisibility::addMask(std::size_t place, const SweptAxis& axis, const G
   }
 }
 
-/// placesPerPart() where the sphere is not in the part that is loaded.
 std::size_t LoggedVisibility::placeInPart(unsigned sphere) const
 {
   const unsigned first = placeOf_[sphere];

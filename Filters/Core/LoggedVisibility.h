@@ -57,6 +57,12 @@ public:
   /// @return of how many places from this one on the sums are known
   std::size_t loadFor(std::size_t place);
 
+  [[nodiscard]] std::size_t placesPerPart() const { return placesPerPart_; }
+  /// The part that is loaded.
+  [[nodiscard]] std::size_t part() const { return part_; }
+  /// The first place of a sphere in the part that is loaded; placesPerPart() if it has none.
+  [[nodiscard]] std::size_t placeInPart(unsigned sphere) const;
+
   /// [slots] weights of the directions that are seen, of a sphere of the part that is loaded; null
   /// for one that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
@@ -106,7 +112,6 @@ private:
   void addMasks(const std::uint16_t* words, const Extent& extent, std::size_t firstPlace,
     std::size_t lastPlace);
   void addMask(std::size_t place, const SweptAxis& axis, const GroupMask* mask);
-  [[nodiscard]] std::size_t placeInPart(unsigned sphere) const;
 
   const SweepTexels& texels_;
   Watch watch_;

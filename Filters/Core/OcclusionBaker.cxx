@@ -287,6 +287,7 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
   const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress)
 {
   BakeResult result;
+  const ProcessGroup& group = scene.group; // outlives the scene, which may end with the sweep
   TextureCollector collector(settings, particles.size(), estimator.isOutOfCore());
   std::optional<BakedLight> light;
   if (settings.light)
@@ -306,7 +307,7 @@ BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& pa
   result.aborted = progress.aborted();
   if (!result.aborted)
   {
-    collector.finish(result, SureShareOfError * estimator.estimatedError(), scene.group);
+    collector.finish(result, SureShareOfError * estimator.estimatedError(), group);
   }
   return result;
 }

@@ -107,7 +107,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, const std::vector<uns
       records_, options.skips, alone_, scene.group)
   , smooth_(options.smooth)
 {
-  alone_ = {}; // the others know
+  alone_ = std::vector<std::uint8_t>(); // the others know
 }
 
 void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
@@ -129,6 +129,8 @@ void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
 void ProgressiveSweep::end()
 {
   sweep_.end();
+  records_.end(
+    order_.indicesOf(particles_), watch_ == Watch::Some ? watched_ : std::vector<unsigned>());
   returnFreeMemory();
 }
 
@@ -152,7 +154,7 @@ std::vector<SquaredError> ProgressiveSweep::squaredErrors() const
   for (std::size_t first = 0; first < errors.size(); first += count)
   {
     // Those of some are known whatever part is loaded.
-    const std::size_t known = watch_ == Watch::All ? loadFor(first) : errors.size();
+    const std::size_t known = watch_ == Watch::All ? records_.loadFor(first) : errors.size();
     count = std::min(known, errors.size() - first);
     tbb::parallel_for(
       first, first + count, [&](std::size_t i) { errors[i] = made.squaredError(watched_[i]); });
@@ -170,14 +172,6 @@ double ProgressiveSweep::estimatedError() const
   return all.rms();
 }
 
-/// Makes the sums of a place of the list known.
-/// @return of how many places from there on they are
-std::size_t ProgressiveSweep::loadFor(std::size_t place) const
-{
-  LoggedVisibility* log = records_.log();
-  return log != nullptr ? log->loadFor(place) : particles_.size();
-}
-
 void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& progress,
   BakeCounters& counters, const TextureReplacements& replacements) const
 {
@@ -193,7 +187,7 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
   std::size_t count = 0;
   for (std::size_t first = 0; first < particles_.size() && !progress.aborted(); first += count)
   {
-    count = std::min({ chunk, particles_.size() - first, loadFor(first) });
+    count = std::min({ chunk, particles_.size() - first, records_.loadFor(first) });
     values.resize(count * texels);
     shares.resize(count * texels);
     tbb::parallel_for(std::size_t(0), count,

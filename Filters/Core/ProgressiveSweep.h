@@ -67,7 +67,8 @@ public:
   /// subsets. Returns early when `progress` says so; the sweep cannot go on then.
   void refine(int directions, Progress& progress, Spread spread = Spread::Evenly);
 
-  /// Gives back the memory that only refine() needs: it may not be called any more.
+  /// Gives back the memory that only refine() needs, and squaredErrors() with Watch::All: they may
+  /// not be called any more. The scene is not needed from now on.
   void end();
 
   /// Swept so far, without those that the background makes black.
@@ -92,7 +93,6 @@ public:
 
 private:
   [[nodiscard]] SweepTextures textures() const;
-  [[nodiscard]] std::size_t loadFor(std::size_t place) const;
 
   const BakeSettings& settings_;
   const std::vector<unsigned>& particles_;

@@ -95,7 +95,7 @@ void SphereSweep::end()
   tileSweeps_.clear();
   workspaces_.clear();
   everSeen_ = decltype(everSeen_)();
-  takesPart_ = {};
+  takesPart_ = decltype(takesPart_)();
 }
 
 /// A small block shows soon whether closed cells are worth their cost.

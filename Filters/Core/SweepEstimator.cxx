@@ -39,6 +39,15 @@ ProgressiveSweep::Records recordsOf(const SweepOptions& options)
                            : ProgressiveSweep::Records::InMemory;
 }
 
+void endSweep(ProgressiveSweep& sweep, const SweepOptions& options)
+{
+  sweep.end();
+  if (options.afterSweep)
+  {
+    options.afterSweep();
+  }
+}
+
 /// A sweep that goes on until the error is small enough, and may leave the last few particles to
 /// rays.
 class TargetedSweep
@@ -62,7 +71,7 @@ public:
     report_.directions = sweep_.directions();
     if (!progress_.aborted())
     {
-      sweep_.end();
+      endSweep(sweep_, options_);
       sweep_.handOut(sink, progress_, counters, refined_);
     }
   }
@@ -227,7 +236,7 @@ void SweepEstimator::sweepOnce(const BakeScene& scene, const std::vector<unsigne
   report_.directions = sweep.directions();
   if (!progress.aborted())
   {
-    sweep.end();
+    endSweep(sweep, options_);
     sweep.handOut(sink, progress, counters);
     report_.estimatedError = sweep.estimatedError();
   }

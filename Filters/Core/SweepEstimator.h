@@ -5,6 +5,8 @@
 #include "OcclusionEstimator.h"
 #include "SphereSweep.h"
 
+#include <functional>
+
 namespace po
 {
 /// How much work a sweep does.
@@ -18,6 +20,9 @@ struct SweepOptions
   bool outOfCore = false;
   SweepSkips skips = {};
   bool smooth = true; ///< textures, see TextureSmoothing; off for measurements
+  /// Called, if any, when all that is seen is known and textures are to be made of it: the estimate
+  /// does not need the scene any more.
+  std::function<void()> afterSweep = {};
 };
 
 /// What a sweep did to reach its result.

@@ -280,8 +280,57 @@ const float* VisibilityRecords::subsetSums(unsigned sphere) const
 
 const TexelRims* VisibilityRecords::rims(unsigned sphere) const
 {
-  return compactRims_ ? compactRims_->find(sphere, order_.source(sphere))
-                      : spheres_[sphere].rims.load(std::memory_order_acquire);
+  if (compactRims_)
+  {
+    return compactRims_->find(sphere, order_.source(sphere));
+  }
+  if (!loggedRims_)
+  {
+    return spheres_[sphere].rims.load(std::memory_order_acquire);
+  }
+  const auto watched = watchedRims_.find(sphere);
+  if (watched != watchedRims_.end())
+  {
+    return watched->second;
+  }
+  return loggedRims_->find(log_->placeInPart(sphere));
+}
+
+void VisibilityRecords::end(const std::vector<unsigned>& list, const std::vector<unsigned>& watched)
+{
+  if (!compactRims_)
+  {
+    return;
+  }
+  for (const unsigned sphere : watched)
+  {
+    const TexelRims* known = rims(sphere);
+    watchedRims_[sphere] =
+      known != nullptr ? copyTo(*memory_.ofThread(), *known, texels_.groups()) : nullptr;
+  }
+  auto logged = std::make_unique<LoggedRims>(texels_.groups(), log_->placesPerPart());
+  for (const unsigned sphere : list)
+  {
+    // Of spheres that were not seen they are not looked at.
+    logged->append(compactRims_->isToldApart(sphere) ? rims(sphere) : nullptr);
+  }
+  loggedRims_ = std::move(logged);
+  compactRims_.reset();
+}
+
+std::size_t VisibilityRecords::loadFor(std::size_t place) const
+{
+  if (!log_)
+  {
+    return std::numeric_limits<std::size_t>::max();
+  }
+  const std::size_t before = log_->part();
+  const std::size_t count = log_->loadFor(place);
+  if (loggedRims_ && log_->part() != before)
+  {
+    loggedRims_->load(log_->part());
+  }
+  return count;
 }
 
 bool VisibilityRecords::isBuried(unsigned sphere) const

@@ -3,6 +3,7 @@
 #define po_VisibilityRecords_h
 
 #include "CompactRims.h"
+#include "LoggedRims.h"
 #include "LoggedVisibility.h"
 #include "OcclusionEstimator.h"
 #include "RecordMemory.h"
@@ -13,7 +14,9 @@
 #include "TextureFormula.h"
 
 #include <atomic>
+#include <limits>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -115,20 +118,27 @@ public:
   /// Goes on with new points in the texels, after MostEpochs with the first ones again.
   void nextEpoch();
 
-  /// What is out of core is summed for a part of the list at a time; null where all is in memory.
-  [[nodiscard]] LoggedVisibility* log() const { return log_.get(); }
+  /// Ends the sweep: out of core, what cuts the listed spheres goes to a file too. Only the
+  /// functions below may be called from now on, and the scene is not needed any more.
+  /// @param list the listed spheres, in the order of the list
+  void end(const std::vector<unsigned>& list, const std::vector<unsigned>& watched);
+
+  /// Makes known what there is of a place of the list: out of core of a part of it at a time.
+  /// @return of how many places from there on that is known; may be more than there are
+  std::size_t loadFor(std::size_t place) const;
 
   /// Gives up the log, and all else: nothing may be called any more.
   [[nodiscard]] std::unique_ptr<LoggedVisibility> takeLog() { return std::move(log_); }
 
-  // The sums of a listed sphere; out of core it must be in the part that is loaded.
+  // Of a listed sphere; out of core it must be in the part that is loaded.
 
   /// [slots] weights of the directions that are seen; null for a sphere that was never seen.
   [[nodiscard]] const float* sums(unsigned sphere) const;
   /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
   /// What overlaps a sphere that was looked at, told apart if it was seen; null if nothing does.
-  /// Out of core it is good until the calling thread's next call of any function.
+  /// Out of core it is good until the calling thread's next call of any function, and when the
+  /// sweep has ended there are those of spheres that were seen or watched alone.
   [[nodiscard]] const TexelRims* rims(unsigned sphere) const;
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
@@ -178,7 +188,9 @@ private:
   RecordMemory memory_;
   std::unique_ptr<StoredVisibility> stored_; ///< null: in the log
   std::unique_ptr<LoggedVisibility> log_;    ///< null: stored
-  std::unique_ptr<CompactRims> compactRims_; ///< out of core
+  std::unique_ptr<CompactRims> compactRims_; ///< out of core, until the sweep has ended
+  std::unique_ptr<LoggedRims> loggedRims_;   ///< out of core, from then on
+  std::unordered_map<unsigned, const TexelRims*> watchedRims_; ///< beside these
 };
 }
 

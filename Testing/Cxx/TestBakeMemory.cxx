@@ -151,8 +151,7 @@ TEST(OutOfCore, ALightAndATargetGiveTheSameBits)
   for (const bool target : { false, true })
   {
     const TemporaryFolder folder;
-    // With a target all is in memory: there is no file, so that its folder need not be there.
-    const TemporaryFilesIn here(folder.file(target ? "nowhere" : ""));
+    const TemporaryFilesIn here(folder.file(""));
     vtkNew<vtkSphereAmbientOcclusion> filter;
     filter->SetInputData(lattice(8));
     filter->SetMethod(Method::Sweep);
