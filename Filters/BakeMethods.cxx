@@ -53,6 +53,7 @@ public:
     , group_(group)
     , progress_(progress)
     , report_(report)
+    , particles_(static_cast<double>(task.receivers.size()))
   {
   }
 
@@ -60,7 +61,7 @@ public:
   {
     SweepOptions options = sweepFor(task_);
     requireMemory(memoryOf(task_, SweepEstimator(options)), task_.receivers.size());
-    std::vector<unsigned> particles = task_.receivers;
+    std::vector<unsigned> particles = std::move(task_.receivers);
     if (task_.occluders.spheres.empty())
     {
       sortForSweep(task_.cloud, particles);
@@ -131,8 +132,7 @@ private:
     report_.counters = result.counters.summed(group_);
     report_.directions = static_cast<int>(group_.largest(directions));
     report_.samplesUsed = task_.settings.samplesPerTexel;
-    report_.estimatedError =
-      errorIsOfAll ? error : errorOfAll(error, double(task_.receivers.size()), group_);
+    report_.estimatedError = errorIsOfAll ? error : errorOfAll(error, particles_, group_);
     report_.storageDifference =
       errorOfAll(result.table.difference, result.table.comparedArea, group_);
     report_.maximum = result.table.maximum;
@@ -142,6 +142,7 @@ private:
   const ProcessGroup& group_;
   Progress& progress_;
   BakeReport& report_;
+  double particles_; ///< how many
 };
 }
 

@@ -48,9 +48,9 @@ struct BakeTask
 [[nodiscard]] int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group);
 
 /// Bakes the receivers and fills the report: method, directions, error, samples, refined, and the
-/// counters. With Reference and a target error settings.samplesPerTexel becomes what reaches it. Of
-/// the task's particles the frame and the list of receivers stay.
-/// Throws like bakeOcclusion, and std::runtime_error where memory would not do.
+/// counters. With Reference and a target error settings.samplesPerTexel becomes what reaches it.
+/// The particles of the task are gone then. Throws like bakeOcclusion, and std::runtime_error where
+/// memory would not do.
 [[nodiscard]] BakeResult bakeByMethod(
   int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report);
 }

@@ -44,6 +44,7 @@ LightSweep::LightSweep(const BakeScene& scene, const std::vector<unsigned>& part
   if (outOfCore)
   {
     log_ = records_->takeLog();
+    log_->endSweep();
     records_.reset();
   }
 }

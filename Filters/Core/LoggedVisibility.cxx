@@ -144,6 +144,11 @@ void LoggedVisibility::endBlock(const std::vector<AxisWeights>& axes, std::size_
   part_ = NoPart;
 }
 
+void LoggedVisibility::endSweep()
+{
+  buffers_.clear();
+}
+
 std::size_t LoggedVisibility::loadFor(std::size_t place)
 {
   const std::size_t part = place / placesPerPart_;
@@ -179,7 +184,6 @@ void LoggedVisibility::load(std::size_t part)
 
 void LoggedVisibility::beginPart(std::size_t part)
 {
-  buffers_.clear(); // empty between two blocks, but they take memory
   part_ = part;
   seen_.assign(placesPerPart_, 0);
   sums_.assign(placesPerPart_ * texels_.slots(), 0.0f);

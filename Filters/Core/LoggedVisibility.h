@@ -57,6 +57,9 @@ public:
   /// @return of how many places from this one on the sums are known
   std::size_t loadFor(std::size_t place);
 
+  /// Gives back the memory of keep(): it may not be called any more.
+  void endSweep();
+
   [[nodiscard]] std::size_t placesPerPart() const { return placesPerPart_; }
   /// The part that is loaded.
   [[nodiscard]] std::size_t part() const { return part_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VisibilityRecords.h"
 
+#include "HeapMemory.h"
 #include "MaskedSums.h"
 #include "RimFinder.h"
 #include "TexelCaps.h"
@@ -306,7 +307,7 @@ void VisibilityRecords::end(const std::vector<unsigned>& list, const std::vector
   {
     const TexelRims* known = rims(sphere);
     watchedRims_[sphere] =
-      known != nullptr ? copyTo(*memory_.ofThread(), *known, texels_.groups()) : nullptr;
+      known != nullptr ? copyTo(watchedMemory_, *known, texels_.groups()) : nullptr;
   }
   auto logged = std::make_unique<LoggedRims>(texels_.groups(), log_->placesPerPart());
   for (const unsigned sphere : list)
@@ -316,6 +317,7 @@ void VisibilityRecords::end(const std::vector<unsigned>& list, const std::vector
   }
   loggedRims_ = std::move(logged);
   compactRims_.reset();
+  log_->endSweep();
 }
 
 std::size_t VisibilityRecords::loadFor(std::size_t place) const
@@ -329,6 +331,7 @@ std::size_t VisibilityRecords::loadFor(std::size_t place) const
   if (loggedRims_ && log_->part() != before)
   {
     loggedRims_->load(log_->part());
+    returnFreeMemory(); // tables that grow leave much behind
   }
   return count;
 }

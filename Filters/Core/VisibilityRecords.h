@@ -16,6 +16,7 @@
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <memory_resource>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -191,6 +192,7 @@ private:
   std::unique_ptr<CompactRims> compactRims_; ///< out of core, until the sweep has ended
   std::unique_ptr<LoggedRims> loggedRims_;   ///< out of core, from then on
   std::unordered_map<unsigned, const TexelRims*> watchedRims_; ///< beside these
+  std::pmr::monotonic_buffer_resource watchedMemory_;          ///< of them
 };
 }
 
