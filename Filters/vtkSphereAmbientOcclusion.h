@@ -348,11 +348,12 @@ public:
 
   ///@{
   /**
-   * Sweep keeps what it sees of the particles in a temporary file, instead of some KiB of memory a
-   * particle [off]. Where memory would not do it does so anyway, and the textures have the same
-   * bits. The file is in the folder that TMPDIR names, else /tmp; at the default resolution and
-   * quality it takes 0.1 kB a particle (packings) to 1.5 (gases). With TargetError all is kept in
-   * memory.
+   * Sweep keeps what it sees of the particles in temporary files, instead of some KiB of memory a
+   * particle [off]: with a million particles or more a bake then takes little more than its result.
+   * Where memory would not do it does so anyway, and the textures have the same bits. The files are
+   * in the folder that TMPDIR names, else /tmp; at the default resolution and quality they take 0.2
+   * kB a particle (packings) to 2 (gases), and with TargetError as much more as there are more
+   * directions.
    */
   vtkSetMacro(OutOfCore, bool);
   vtkGetMacro(OutOfCore, bool);

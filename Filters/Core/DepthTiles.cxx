@@ -13,11 +13,11 @@ constexpr double SpheresPerTile = 4096;
 constexpr float SmallestTileWidth = 16;
 constexpr float LargestTileWidth = 60; ///< so that the cells stay small
 constexpr double MostTilesPerSphere = 4;
-/// Spheres a patch should hold: 100 bytes each. The more patches there are the more often spheres
-/// near their edges, and the bounds of all, are looked at.
+/// Spheres a patch should hold: 100 bytes each, for every thread. The more patches there are the
+/// more often spheres near their edges, and the bounds of all, are looked at.
 constexpr double WantedPatches = 16;
 constexpr double FewestPerPatch = 1 << 16;
-constexpr double MostPerPatch = 1 << 18;
+constexpr double MostPerPatch = 1 << 17;
 }
 
 void DepthTiles::layOut(const ReceiverExtent& receivers, float reach)

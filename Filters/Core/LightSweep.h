@@ -21,8 +21,8 @@ namespace po
 class LightSweep
 {
 public:
-  /// Upper bound of its memory, of all particles.
-  static constexpr double BytesPerTexel = 10;
+  /// Upper bound of its memory, of all particles; out of core that is of what overlaps them.
+  [[nodiscard]] static constexpr double bytesPerTexel(bool outOfCore) { return outOfCore ? 1 : 10; }
 
   /// Sweeps. Returns early when `progress` says so; sums() is incomplete then.
   /// @param particles whose sums are wanted, by their number in the scene

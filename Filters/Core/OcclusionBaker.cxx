@@ -252,19 +252,34 @@ BakeCounters BakeCounters::summed(const ProcessGroup& group) const
   return all;
 }
 
+namespace
+{
+/// Of a table in the form it is stored in, and on its way there, in bytes a texel.
+double tableBytesPerTexel(const BakeSettings& settings, bool outOfCore)
+{
+  if (settings.storage == Storage::OneValue)
+  {
+    return 0;
+  }
+  // The linear table stays until it is encoded, mostly at once but not always, out of core in a
+  // file (see TextureIntake); the encoded one may be copied into the blocks of a data set.
+  const double linear = outOfCore && TextureIntake::spills(settings) ? 0 : 4;
+  const double encoded = settings.encoding == Encoding::UInt8Gamma2 ? 1 + 1 : 4;
+  const double weights = TextureIntake::weighsTexels(settings) ? 1 : 0;
+  return linear + encoded + weights;
+}
+}
+
 double bakeMemory(
   std::size_t particles, const BakeSettings& settings, const OcclusionEstimator& estimator)
 {
+  const bool outOfCore = estimator.isOutOfCore();
   const double texels =
     static_cast<double>(settings.textureResolution) * settings.textureResolution;
-  // The linear table stays until it is encoded, mostly at once (see TextureIntake) but not always;
-  // the encoded one is copied into the data set.
-  const double full = settings.encoding == Encoding::UInt8Gamma2 ? 4 + 1 + 1 : 4 + 4;
-  const double weights = TextureIntake::weighsTexels(settings) ? 1 : 0;
-  const double table = settings.storage == Storage::OneValue ? 0 : full + weights;
-  const double light = settings.light ? LightSweep::BytesPerTexel : 0;
+  const double light = settings.light ? LightSweep::bytesPerTexel(outOfCore) : 0;
   return static_cast<double>(particles) *
-    (BytesPerSphere + texels * (table + light + estimator.bytesPerTexel()));
+    (BytesPerSphere +
+      texels * (tableBytesPerTexel(settings, outOfCore) + light + estimator.bytesPerTexel()));
 }
 
 double occluderMemory(std::size_t spheres, std::size_t triangles)

@@ -63,12 +63,14 @@ public:
 
   /// Of particles that twenty others overlap; those that nothing overlaps need 5 (see
   /// VisibilityRecords). The error bars of all particles take 16. Out of core what overlaps
-  /// particles that are looked at remains, 2 to 5: together with the linear table, which is there
-  /// for a moment only (see TextureIntake), the number here covered all that was measured, in a set
-  /// in which all particles overlap too.
+  /// particles that are looked at takes below 1, and with a target textures that rays have found 8.
   [[nodiscard]] double bytesPerTexel() const override
   {
-    return options_.targetError > 0 ? 26 : (options_.outOfCore ? 3 : 10);
+    if (options_.outOfCore)
+    {
+      return options_.targetError > 0 ? 9 : 1;
+    }
+    return options_.targetError > 0 ? 26 : 10;
   }
 
   [[nodiscard]] bool isOutOfCore() const override { return options_.outOfCore; }

@@ -20,11 +20,6 @@ double brightestOf(const BakeSettings& settings)
     std::holds_alternative<UniformBackground>(settings.background);
   return isKnown ? 1 : std::numeric_limits<double>::infinity();
 }
-
-bool becomesBytes(const BakeSettings& settings)
-{
-  return settings.storage == Storage::Full && settings.encoding == Encoding::UInt8Gamma2;
-}
 }
 
 TextureIntake::TextureIntake(const BakeSettings& settings, std::size_t particles, bool outOfCore)
@@ -32,9 +27,9 @@ TextureIntake::TextureIntake(const BakeSettings& settings, std::size_t particles
   , particles_(particles)
   , brightest_(brightestOf(settings))
   , linear_(settings.storage == Storage::OneValue ? 1 : settings.textureResolution,
-      outOfCore && becomesBytes(settings) ? 0 : particles)
+      outOfCore && spills(settings) ? 0 : particles)
 {
-  if (outOfCore && becomesBytes(settings))
+  if (outOfCore && spills(settings))
   {
     spilled_.emplace(linear_.texelsPerRow());
   }
@@ -48,6 +43,11 @@ TextureIntake::TextureIntake(const BakeSettings& settings, std::size_t particles
 bool TextureIntake::weighsTexels(const BakeSettings& settings)
 {
   return settings.storage == Storage::VariableSize || settings.storage == Storage::Compressed;
+}
+
+bool TextureIntake::spills(const BakeSettings& settings)
+{
+  return settings.storage == Storage::Full && settings.encoding == Encoding::UInt8Gamma2;
 }
 
 void TextureIntake::add(const float* texture, const float* shares)

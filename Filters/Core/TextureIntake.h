@@ -32,6 +32,9 @@ public:
   /// texel of particles that are overlapped.
   [[nodiscard]] static bool weighsTexels(const BakeSettings& settings);
 
+  /// Do linear values wait in a file out of core? Else they are in memory all the same.
+  [[nodiscard]] static bool spills(const BakeSettings& settings);
+
   /// The texture of the next particle: T x T texels, or with Storage::OneValue one.
   /// @param shares [T * T] of the texels' area outside other particles; not read of one value
   void add(const float* texture, const float* shares);

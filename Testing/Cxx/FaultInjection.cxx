@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <link.h>
+#include <malloc.h>
 #include <pthread.h>
 
 #include <algorithm>
@@ -34,6 +35,10 @@ std::atomic<RTCError> pendingError{ RTC_ERROR_NONE };
 std::atomic<bool> memoryIsLimited{ false };
 std::atomic<std::ptrdiff_t> embreeBytes{ 0 };
 std::atomic<std::ptrdiff_t> largestEmbreeBytes{ 0 };
+
+std::atomic<bool> memoryIsCounted{ false };
+std::atomic<std::ptrdiff_t> usedBytes{ 0 };
+std::atomic<std::ptrdiff_t> mostBytes{ 0 };
 
 std::atomic<bool> threadsFail{ false };
 
@@ -98,6 +103,24 @@ bool isCounted(const void* caller)
   return first != end && first + 1 != end && !systemLibraries.has(*(first + 1));
 }
 
+/// @param change of the bytes that are in use
+void count(std::ptrdiff_t change)
+{
+  const std::ptrdiff_t now = usedBytes += change;
+  for (std::ptrdiff_t most = mostBytes; now > most && !mostBytes.compare_exchange_weak(most, now);)
+  {
+  }
+}
+
+void giveBack(void* memory)
+{
+  if (memoryIsCounted && memory)
+  {
+    count(-static_cast<std::ptrdiff_t>(malloc_usable_size(memory)));
+  }
+  std::free(memory);
+}
+
 void* allocate(std::size_t size, std::size_t alignment, const void* caller)
 {
   if (failingAllocation != Never && isCounted(caller) && ++allocations == failingAllocation)
@@ -111,6 +134,10 @@ void* allocate(std::size_t size, std::size_t alignment, const void* caller)
   if (!memory)
   {
     throw std::bad_alloc();
+  }
+  if (memoryIsCounted)
+  {
+    count(static_cast<std::ptrdiff_t>(malloc_usable_size(memory)));
   }
   return memory;
 }
@@ -157,35 +184,35 @@ INTERPOSED void* operator new[](std::size_t size, std::align_val_t alignment)
 }
 INTERPOSED void operator delete(void* memory) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 INTERPOSED void operator delete[](void* memory) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 INTERPOSED void operator delete(void* memory, std::size_t) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 INTERPOSED void operator delete[](void* memory, std::size_t) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 INTERPOSED void operator delete(void* memory, std::align_val_t) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 INTERPOSED void operator delete[](void* memory, std::align_val_t) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 INTERPOSED void operator delete(void* memory, std::size_t, std::align_val_t) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 INTERPOSED void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept
 {
-  std::free(memory);
+  giveBack(memory);
 }
 
 extern "C"
@@ -270,6 +297,23 @@ FailingAllocation::~FailingAllocation()
 std::size_t FailingAllocation::count()
 {
   return allocations;
+}
+
+CountedMemory::CountedMemory()
+{
+  usedBytes = 0;
+  mostBytes = 0;
+  memoryIsCounted = true;
+}
+
+CountedMemory::~CountedMemory()
+{
+  memoryIsCounted = false;
+}
+
+std::ptrdiff_t CountedMemory::most()
+{
+  return mostBytes;
 }
 
 FailingEmbree::FailingEmbree(EmbreeCall call, int n, RTCError error)

@@ -28,6 +28,19 @@ public:
   [[nodiscard]] static std::size_t count();
 };
 
+/// Counts the bytes that operator new has given out and operator delete has not taken back, of all
+/// threads: those since this object was made, and the most of them at a time. One object at a time.
+class CountedMemory
+{
+public:
+  CountedMemory();
+  ~CountedMemory();
+  CountedMemory(const CountedMemory&) = delete;
+  CountedMemory& operator=(const CountedMemory&) = delete;
+
+  [[nodiscard]] static std::ptrdiff_t most();
+};
+
 /// Calls of Embree that can be made to fail.
 enum class EmbreeCall
 {

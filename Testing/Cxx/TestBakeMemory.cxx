@@ -20,7 +20,8 @@
 
 namespace
 {
-using Method = vtkSphereAmbientOcclusion::MethodType;
+using Filter = vtkSphereAmbientOcclusion;
+using Method = Filter::MethodType;
 
 /// What the filter may use, in megabytes above what the process has.
 class Budget
@@ -42,12 +43,14 @@ private:
 TEST(MemoryBudget, AutomaticTakesEmbreeWhereSweepDoesNotFit)
 {
   const auto input = lattice(20);
-  const auto methodUnder = [&](int method, double megabytes, std::string& error)
+  const auto methodUnder = [&](int method, double megabytes, std::string& error,
+                             int resolution = 64, int encoding = Filter::UInt8Gamma2)
   {
     const Budget budget(megabytes);
     vtkNew<vtkSphereAmbientOcclusion> filter;
     filter->SetInputData(input);
-    filter->SetTextureResolution(64);
+    filter->SetTextureResolution(resolution);
+    filter->SetEncoding(encoding);
     filter->SetMethod(method);
     // The method is chosen before the first report, so nothing need be baked.
     vtkNew<vtkCallbackCommand> stop;
@@ -59,17 +62,18 @@ TEST(MemoryBudget, AutomaticTakesEmbreeWhereSweepDoesNotFit)
     return std::string(filter->GetMethodUsed());
   };
   std::string error;
-  // 8000 * 64 * 64 texels: 190 MB for Embree, 500 MB for Sweep in memory, 300 MB out of core (see
+  // 8000 * 64 * 64 texels: 190 MiB for Embree, 500 for Sweep in memory, 100 out of core (see
   // bakeMemory).
   EXPECT_EQ(methodUnder(Method::Automatic, 2000, error), "Sweep");
   EXPECT_EQ(error, "");
-  EXPECT_EQ(methodUnder(Method::Automatic, 450, error), "Sweep"); // out of core
+  EXPECT_EQ(methodUnder(Method::Automatic, 150, error), "Sweep"); // out of core
   EXPECT_EQ(error, "");
-  EXPECT_EQ(methodUnder(Method::Automatic, 230, error), "Embree");
+  // As floats, 8000 * 128 * 128 texels: 1010 MiB for Embree, 1130 for Sweep out of core.
+  EXPECT_EQ(methodUnder(Method::Automatic, 1070, error, 128, Filter::Float32Linear), "Embree");
   EXPECT_EQ(error, "");
   for (const auto& [method, megabytes] :
-    { std::pair(Method::Automatic, 100), std::pair(Method::Sweep, 230),
-      std::pair(Method::Embree, 100), std::pair(Method::Reference, 100) })
+    { std::pair(Method::Automatic, 60), std::pair(Method::Sweep, 60),
+      std::pair(Method::Embree, 150), std::pair(Method::Reference, 150) })
   {
     methodUnder(method, megabytes, error);
     EXPECT_NE(error.find("are free: lower TextureResolution"), std::string::npos) << error;
