@@ -20,10 +20,11 @@ namespace po
 namespace
 {
 void readParticles(BakeInput& input, const RadiusSettings& radii,
-  const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
+  const std::vector<vtkPointSet*>& blocks, FrameFit fit, const ProcessGroup& group)
 {
   std::string error;
-  std::optional<ParticleInput> particles = readBlocks(blocks, radii, error, nullptr, group);
+  std::optional<ParticleInput> particles =
+    readBlocks(blocks, radii, error, { nullptr, fit }, group);
   if (!particles)
   {
     throw std::invalid_argument(error);
@@ -109,11 +110,12 @@ std::vector<std::uint64_t> idsByPlace(const std::vector<std::uint64_t>& idOfPoin
 
 /// Exchanges particles and occluders with the other processes.
 void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint64_t>& idOfPoint,
-  const BakeSettings& settings, const ProcessGroup& group)
+  const BakeSettings& settings, FrameFit fit, const ProcessGroup& group)
 {
   SphereCloud& own = input.own;
   const Neighbourhood neighbourhood(own.spheres, own.toLocalReach(settings.maximumDistance), group);
-  SharedSpheres shared = shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
+  SharedSpheres shared =
+    shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers, fit);
   input.places = std::move(shared.places);
   own.spheres = {}; // the task has them, in another order
   own.centers = {};
@@ -125,7 +127,7 @@ void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint
   task.cloud.centers = std::move(shared.centers);
   task.cloud.ids = idsByPlace(idOfPoint, own, input.places, task.cloud.spheres.size());
   task.receivers = distinct(input.places);
-  task.occluders = shareOccluders(std::move(occluders), neighbourhood, group);
+  task.occluders = shareOccluders(std::move(occluders), neighbourhood, group, fit);
   task.settings = settings;
 }
 }
@@ -134,7 +136,10 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
   const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluders, const ProcessGroup& group)
 {
   BakeInput input;
-  readParticles(input, radiiOf(filter), blocks, group);
+  // Floats of what rests must stay for its textures to stay.
+  const bool reuse = reusesTextures(filter);
+  const FrameFit fit = reuse ? FrameFit::Steady : FrameFit::Exact;
+  readParticles(input, radiiOf(filter), blocks, fit, group);
   const std::vector<std::uint64_t> idOfPoint = readIds(blocks, idArrayOf(filter), group);
   OccluderInput others = readOccluders(occluders, radiiOf(filter), input.own, group);
 
@@ -151,9 +156,10 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
       input.warnings.insert(input.warnings.begin(), describe(rejected));
     }
   }
-  makeTask(input, std::move(others.occluders), idOfPoint, settings, group);
+  makeTask(input, std::move(others.occluders), idOfPoint, settings, fit, group);
   input.task.targetError = filter.GetTargetError();
   input.task.outOfCore = filter.GetOutOfCore();
+  input.task.reuseUnchanged = reuse;
   return input;
 }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakeMethods.h"
 
+#include "BakeReuse.h"
 #include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "FreeMemory.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -45,11 +47,13 @@ double errorOfAll(double own, double weight, const ProcessGroup& group)
 class MethodBake
 {
 public:
-  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report,
+    BakeReuse& reuse)
     : task_(task)
     , group_(group)
     , progress_(progress)
     , report_(report)
+    , reuse_(reuse)
   {
   }
 
@@ -68,34 +72,61 @@ public:
     options.targetError = task_.targetError;
     const EmbreeEstimator embree(options);
     BakeResult result = bake(embree);
-    finish(result, embree.report().directions, embree.report().estimatedError, false);
+    const auto& [directions, error, reached, above] = embree.report();
+    if (BakeReuse::suits(report_.method, task_))
+    {
+      finish(result, reuse_.mostDirections(directions), reuse_.textures().estimatedError(), false);
+    }
+    else
+    {
+      finish(result, directions, error, false);
+    }
     return result;
   }
 
   BakeResult byReference()
   {
     const ReferenceEstimator reference;
+    if (task_.targetError == 0)
+    {
+      BakeResult result = bake(reference);
+      finish(result, 0, 0, true);
+      return result;
+    }
     requireMemory(memoryOf(task_, reference), task_.receivers.size());
     const BakeScene scene(task_.cloud, task_.occluders, group_);
-    double error = 0;
-    if (task_.targetError > 0)
-    {
-      const PilotResult pilot = samplesForError(
-        scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
-      task_.settings.samplesPerTexel = pilot.samplesPerTexel;
-      error = pilot.estimatedError;
-    }
+    const PilotResult pilot = samplesForError(
+      scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
+    task_.settings.samplesPerTexel = pilot.samplesPerTexel;
     BakeResult result = bakeOcclusion(scene, task_.receivers, task_.settings, reference, progress_);
-    finish(result, 0, error, true);
+    finish(result, 0, pilot.estimatedError, true);
     return result;
   }
 
 private:
   BakeResult bake(const OcclusionEstimator& estimator)
   {
-    requireMemory(memoryOf(task_, estimator), task_.receivers.size());
-    return bakeOcclusion(BakeScene(task_.cloud, task_.occluders, group_), task_.receivers,
-      task_.settings, estimator, progress_);
+    const bool reuses = BakeReuse::suits(report_.method, task_);
+    requireMemory(memoryOf(task_, estimator) + (reuses ? reuse_.bytesMissing(task_) : 0),
+      task_.receivers.size());
+    return reuses ? bakeChanges(estimator)
+                  : bakeOcclusion(BakeScene(task_.cloud, task_.occluders, group_), task_.receivers,
+                      task_.settings, estimator, progress_);
+  }
+
+  /// What has changed since the last bake.
+  BakeResult bakeChanges(const OcclusionEstimator& estimator)
+  {
+    const std::optional<BakeTask> changed = reuse_.begin(report_.method, task_);
+    const BakeTask& part = changed ? *changed : task_;
+    BakeResult result = bakeOcclusion(BakeScene(part.cloud, part.occluders, group_), part.receivers,
+      part.settings, estimator, progress_, reuse_.textures());
+    if (!result.aborted)
+    {
+      reuse_.commit(task_);
+      report_.reused = group_.sum(std::uint64_t(reuse_.textures().reused()));
+    }
+    return result;
   }
 
   /// @param errorIsOfAll whether the estimator has found it over all processes
@@ -119,6 +150,7 @@ private:
   const ProcessGroup& group_;
   Progress& progress_;
   BakeReport& report_;
+  BakeReuse& reuse_;
 };
 }
 
@@ -162,17 +194,18 @@ int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
   // Within about two radii the near spheres, which Embree's method tests without rays, are all
   // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
   const double distance = task.settings.maximumDistance;
-  const bool close = distance > 0 && distance <= 2 * task.cloud.scale;
+  // Where textures are to be reused, parts of the set are baked.
+  const bool close = distance > 0 && (task.reuseUnchanged || distance <= 2 * task.cloud.scale);
   const bool full = group.any(memoryOf(task, sweepFor(task)) > freeMemory());
   return triangles || close || full ? vtkSphereAmbientOcclusion::Embree
                                     : vtkSphereAmbientOcclusion::Sweep;
 }
 
-BakeResult bakeByMethod(
-  int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+BakeResult bakeByMethod(int method, BakeTask& task, const ProcessGroup& group, Progress& progress,
+  BakeReport& report, BakeReuse& reuse)
 {
   report.method = method;
-  MethodBake bake(task, group, progress, report);
+  MethodBake bake(task, group, progress, report, reuse);
   switch (method)
   {
     case vtkSphereAmbientOcclusion::Sweep:

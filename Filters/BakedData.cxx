@@ -248,7 +248,7 @@ std::vector<vtkPointSet*> particleBlocks(vtkDataObject* data)
 }
 
 std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
-  const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
+  const RadiusSettings& settings, std::string& error, const FrameChoice& frame,
   const ProcessGroup& group)
 {
   if (blocks.size() == 1)

@@ -26,7 +26,7 @@ namespace po
 /// Nothing, and a message in `error`, under the conditions of readSphereCloud, which says what
 /// `frame` and `group` are.
 [[nodiscard]] std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
-  const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
+  const RadiusSettings& settings, std::string& error, const FrameChoice& frame,
   const ProcessGroup& group);
 
 /// Adds the arrays of the data contract to each block. A block gets the rows of the table that its

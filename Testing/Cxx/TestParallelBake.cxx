@@ -41,6 +41,39 @@ TEST_P(ParallelBake, SameBitsHoweverTheParticlesAreDistributed)
   }
 }
 
+TEST(ParallelReuse, GivesTheBitsOfABakeOfOneProcess)
+{
+  const auto before = mixedCloud(600);
+  vtkNew<vtkPolyData> after;
+  after->DeepCopy(before);
+  for (vtkIdType i = 0; i < 12; ++i)
+  {
+    double p[3];
+    before->GetPoint(50 * i, p);
+    after->GetPoints()->SetPoint(50 * i, p[0], p[1] + 0.05, p[2]);
+  }
+  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
+  {
+    filter->SetSamplesPerTexel(16);
+    filter->SetMaximumDistance(0.5);
+    filter->ReuseUnchangedOn();
+  };
+  const auto alone = bake(after, false, prepare);
+  EXPECT_STREQ(alone->GetMethodUsed(), "Embree");
+  const vtkIdType half = before->GetNumberOfPoints() / 2;
+  for (const Owner& owner :
+    { Owner(interleaved), Owner([&](vtkIdType i) { return i < half ? 0 : size() - 1; }) })
+  {
+    const auto together = bake(ownPart(before, owner), true, prepare);
+    EXPECT_EQ(together->GetNumberOfParticlesReused(), 0);
+    together->SetInputData(ownPart(after, owner));
+    together->Update();
+    EXPECT_EQ(difference(output(alone), output(together)).particles, 0);
+    EXPECT_GT(together->GetNumberOfParticlesReused(), 100);
+    EXPECT_LT(together->GetNumberOfParticlesReused(), 588);
+  }
+}
+
 TEST_P(ParallelBake, SameBitsWithIds)
 {
   const auto whole = mixedCloud(300);
