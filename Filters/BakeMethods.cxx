@@ -5,8 +5,10 @@
 #include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "FreeMemory.h"
+#include "HeapMemory.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
+#include "SweepOrder.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <algorithm>
@@ -54,13 +56,20 @@ public:
     , progress_(progress)
     , report_(report)
     , reuse_(reuse)
+    , reuses_(BakeReuse::suits(report.method, task))
   {
   }
 
   BakeResult bySweep()
   {
     const SweepEstimator sweep = sweepFor(task_);
-    BakeResult result = bake(sweep);
+    requireMemory(memoryOf(task_, sweep), task_.receivers.size());
+    std::vector<unsigned> particles = task_.receivers;
+    if (task_.occluders.spheres.empty())
+    {
+      sortForSweep(task_.cloud, particles);
+    }
+    BakeResult result = bake(sweep, particles);
     finish(result, sweep.report().directions, sweep.report().estimatedError, task_.targetError > 0);
     report_.refined = result.aborted ? 0 : group_.sum(std::uint64_t(sweep.report().refined));
     return result;
@@ -71,9 +80,9 @@ public:
     EmbreeOptions options;
     options.targetError = task_.targetError;
     const EmbreeEstimator embree(options);
-    BakeResult result = bake(embree);
+    BakeResult result = bakeChanges(embree);
     const auto& [directions, error, reached, above] = embree.report();
-    if (BakeReuse::suits(report_.method, task_))
+    if (reuses_)
     {
       finish(result, reuse_.mostDirections(directions), reuse_.textures().estimatedError(), false);
     }
@@ -89,12 +98,12 @@ public:
     const ReferenceEstimator reference;
     if (task_.targetError == 0)
     {
-      BakeResult result = bake(reference);
+      BakeResult result = bakeChanges(reference);
       finish(result, 0, 0, true);
       return result;
     }
     requireMemory(memoryOf(task_, reference), task_.receivers.size());
-    const BakeScene scene(task_.cloud, task_.occluders, group_);
+    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
     const PilotResult pilot = samplesForError(
       scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
     task_.settings.samplesPerTexel = pilot.samplesPerTexel;
@@ -104,26 +113,30 @@ public:
   }
 
 private:
-  BakeResult bake(const OcclusionEstimator& estimator)
+  BakeResult bake(const OcclusionEstimator& estimator, const std::vector<unsigned>& particles)
   {
-    const bool reuses = BakeReuse::suits(report_.method, task_);
-    requireMemory(memoryOf(task_, estimator) + (reuses ? reuse_.bytesMissing(task_) : 0),
-      task_.receivers.size());
-    return reuses ? bakeChanges(estimator)
-                  : bakeOcclusion(BakeScene(task_.cloud, task_.occluders, group_), task_.receivers,
-                      task_.settings, estimator, progress_);
+    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
+    returnFreeMemory(); // of what has read and sorted the particles
+    return bakeOcclusion(scene, particles, task_.settings, estimator, progress_);
   }
 
-  /// What has changed since the last bake.
+  /// By a method that can reuse textures; in the order of the receivers.
   BakeResult bakeChanges(const OcclusionEstimator& estimator)
   {
-    const std::optional<BakeTask> changed = reuse_.begin(report_.method, task_);
-    const BakeTask& part = changed ? *changed : task_;
-    BakeResult result = bakeOcclusion(BakeScene(part.cloud, part.occluders, group_), part.receivers,
-      part.settings, estimator, progress_, reuse_.textures());
+    requireMemory(memoryOf(task_, estimator) + (reuses_ ? reuse_.bytesMissing(task_) : 0),
+      task_.receivers.size());
+    if (!reuses_)
+    {
+      return bake(estimator, task_.receivers);
+    }
+    std::optional<BakeTask> changed = reuse_.begin(report_.method, task_);
+    BakeTask& part = changed ? *changed : task_;
+    const BakeScene scene(std::move(part.cloud), part.occluders, group_);
+    BakeResult result =
+      bakeOcclusion(scene, part.receivers, part.settings, estimator, progress_, reuse_.textures());
     if (!result.aborted)
     {
-      reuse_.commit(task_);
+      reuse_.commit();
       report_.reused = group_.sum(std::uint64_t(reuse_.textures().reused()));
     }
     return result;
@@ -151,6 +164,7 @@ private:
   Progress& progress_;
   BakeReport& report_;
   BakeReuse& reuse_;
+  bool reuses_; ///< does the task suit it?
 };
 }
 
@@ -159,23 +173,6 @@ std::vector<unsigned> distinct(std::vector<unsigned> numbers)
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
-}
-
-BakeResult inOrderOf(
-  const std::vector<unsigned>& places, const std::vector<unsigned>& receivers, BakeResult result)
-{
-  const std::vector<std::int32_t> rows = std::move(result.rowOf);
-  const std::vector<float> means = std::move(result.mean);
-  result.rowOf.clear();
-  result.mean.clear();
-  for (const unsigned place : places)
-  {
-    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), place);
-    const auto index = static_cast<std::size_t>(receiver - receivers.begin());
-    result.rowOf.push_back(rows[index]);
-    result.mean.push_back(means[index]);
-  }
-  return result;
 }
 
 int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)

@@ -122,6 +122,10 @@ std::optional<BakeTask> BakeReuse::begin(int method, const BakeTask& task)
   key_ = std::move(key);
   const std::vector<std::int32_t> earlier =
     isKnown ? findUnchanged(task) : std::vector<std::int32_t>(task.receivers.size(), -1);
+  spheres_ = spheresOf(task);
+  ids_ = task.cloud.ids;
+  receivers_ = task.receivers;
+  mesh_ = task.occluders.mesh;
   textures_.begin(earlier);
   if (textures_.reused() == 0)
   {
@@ -134,15 +138,6 @@ int BakeReuse::mostDirections(int ofBaked)
 {
   directions_ = std::max(directions_, ofBaked);
   return directions_;
-}
-
-void BakeReuse::commit(const BakeTask& task)
-{
-  spheres_ = spheresOf(task);
-  ids_ = task.cloud.ids;
-  receivers_ = task.receivers;
-  mesh_ = task.occluders.mesh;
-  isValid_ = true;
 }
 
 /// For each receiver the number of its texture in the last bake, or -1.

@@ -36,13 +36,14 @@ public:
   [[nodiscard]] int mostDirections(int ofBaked);
 
   /// The bake is done.
-  void commit(const BakeTask& task);
+  void commit() { isValid_ = true; }
 
 private:
   [[nodiscard]] std::vector<std::int32_t> findUnchanged(const BakeTask& task) const;
 
   bool isValid_ = false;
   std::string key_;
+  // Of the last bake that has begun:
   std::vector<Sphere> spheres_; ///< particles, then occluders
   std::vector<std::uint64_t> ids_;
   std::vector<unsigned> receivers_;

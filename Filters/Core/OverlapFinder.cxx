@@ -17,25 +17,24 @@ struct SphereBoxes
   /// half a second to build for a million.
   static constexpr std::size_t Spheres = 8;
 
-  struct Places
-  {
-    const unsigned* first;
-    const unsigned* last;
-    [[nodiscard]] const unsigned* begin() const { return first; }
-    [[nodiscard]] const unsigned* end() const { return last; }
-  };
-
   const Brick* brick;
-  std::vector<unsigned> places; ///< box after box
+  std::vector<unsigned> places; ///< box after box; empty: one after the other
 
   [[nodiscard]] unsigned count() const
   {
-    return static_cast<unsigned>((places.size() + Spheres - 1) / Spheres);
+    return static_cast<unsigned>((brick->count + Spheres - 1) / Spheres);
   }
-  [[nodiscard]] Places in(unsigned box) const
+
+  /// Calls action(place) for the spheres of a box.
+  template <typename Action>
+  void forEachIn(unsigned box, const Action& action) const
   {
     const std::size_t first = Spheres * box;
-    return { places.data() + first, places.data() + std::min(first + Spheres, places.size()) };
+    const std::size_t last = std::min(first + Spheres, brick->count);
+    for (std::size_t i = first; i < last; ++i)
+    {
+      action(places.empty() ? static_cast<unsigned>(i) : places[i]);
+    }
   }
 };
 
@@ -55,16 +54,17 @@ void boxBounds(const RTCBoundsFunctionArguments* arguments)
   const auto& boxes = *static_cast<const SphereBoxes*>(arguments->geometryUserPtr);
   constexpr float infinity = std::numeric_limits<float>::infinity();
   RTCBounds box{ infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0 };
-  for (const unsigned place : boxes.in(arguments->primID))
-  {
-    const Sphere& s = boxes.brick->spheres[place];
-    box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
-    box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
-    box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
-    box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
-    box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
-    box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
-  }
+  boxes.forEachIn(arguments->primID,
+    [&](unsigned place)
+    {
+      const Sphere& s = boxes.brick->spheres[place];
+      box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
+      box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
+      box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
+      box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
+      box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
+      box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
+    });
   *arguments->bounds_o = box;
 }
 
@@ -92,14 +92,15 @@ struct Query
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
-    for (const unsigned place : boxes->in(arguments->primID))
-    {
-      const unsigned other = boxes->brick->id(place);
-      if (other != id)
+    boxes->forEachIn(arguments->primID,
+      [&](unsigned place)
       {
-        action(other);
-      }
-    }
+        const unsigned other = boxes->brick->id(place);
+        if (other != id)
+        {
+          action(other);
+        }
+      });
   }
   [[nodiscard]] Vec3d offsetTo(unsigned other) const { return spheres->center(other) - center; }
 

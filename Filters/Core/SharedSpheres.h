@@ -46,7 +46,7 @@ struct SharedSpheres
 /// whose original is nowhere counts as a sphere, once.
 /// @param centers of the own spheres in full, or none (see SphereSet)
 /// @param fit with Steady the others mostly keep their order when the outermost spheres move
-[[nodiscard]] SharedSpheres shareSpheres(const std::vector<Sphere>& own,
+[[nodiscard]] SharedSpheres shareSpheres(std::vector<Sphere> own,
   const std::vector<std::uint8_t>& ghosts, const Neighbourhood& neighbourhood,
   const ProcessGroup& group, const std::vector<Vec3d>& centers = {},
   FrameFit fit = FrameFit::Exact);

@@ -206,7 +206,8 @@ void roundFrame(SphereCloud& cloud, const Extent& extent)
 {
   cloud.scale = std::exp2(std::round(std::log2(cloud.scale)));
   const double step = std::exp2(std::ceil(std::log2(std::max(extent.halfWidth(), cloud.scale))));
-  const auto rounded = [step](double x) { return step * std::round(x / step); };
+  const auto rounded = [step](double x)
+  { return step * std::round(x / step) + 0.0; }; // one zero, not two
   cloud.origin = { rounded(cloud.origin.x), rounded(cloud.origin.y), rounded(cloud.origin.z) };
 }
 

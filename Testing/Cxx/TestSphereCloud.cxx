@@ -62,6 +62,14 @@ TEST(SphereCloud, ASteadyFrameStaysWhenParticlesMove)
     EXPECT_EQ(other.spheres[0].x, cloud.spheres[0].x);
   }
   EXPECT_EQ(steady(80, 0.5).scale, 0.5);
+  const po::SphereCloud below =
+    po::makeSphereCloud({ 2,
+                          [](std::size_t i) {
+                            return po::Vec3d{ i == 0 ? -5.0 : 4.0, 0, 0 };
+                          },
+                          [](std::size_t) { return 1.0; } },
+      po::ProcessGroup::alone(), po::FrameFit::Steady);
+  EXPECT_FALSE(std::signbit(below.origin.x)); // zero has the same bits from both sides
 }
 
 TEST(SphereCloud, LeavesOutAndCountsWhatIsNoSphere)
