@@ -16,6 +16,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -52,18 +53,20 @@ TEST(ParallelReuse, GivesTheBitsOfABakeOfOneProcess)
     before->GetPoint(50 * i, p);
     after->GetPoints()->SetPoint(50 * i, p[0], p[1] + 0.05, p[2]);
   }
-  const auto prepare = [](vtkSphereAmbientOcclusion* filter)
-  {
-    filter->SetSamplesPerTexel(16);
-    filter->SetMaximumDistance(0.5);
-    filter->ReuseUnchangedOn();
-  };
-  const auto alone = bake(after, false, prepare);
-  EXPECT_STREQ(alone->GetMethodUsed(), "Embree");
   const vtkIdType half = before->GetNumberOfPoints() / 2;
-  for (const Owner& owner :
-    { Owner(interleaved), Owner([&](vtkIdType i) { return i < half ? 0 : size() - 1; }) })
+  const Owner byHalves = [&](vtkIdType i) { return i < half ? 0 : size() - 1; };
+  for (const auto& [owner, withLight] :
+    { std::pair(Owner(interleaved), false), std::pair(byHalves, false), std::pair(byHalves, true) })
   {
+    const auto prepare = [light = withLight](vtkSphereAmbientOcclusion* filter)
+    {
+      filter->SetSamplesPerTexel(16);
+      filter->SetMaximumDistance(0.5);
+      filter->SetBakeLight(light);
+      filter->ReuseUnchangedOn();
+    };
+    const auto alone = bake(after, false, prepare);
+    EXPECT_STREQ(alone->GetMethodUsed(), "Embree");
     const auto together = bake(ownPart(before, owner), true, prepare);
     EXPECT_EQ(together->GetNumberOfParticlesReused(), 0);
     together->SetInputData(ownPart(after, owner));
