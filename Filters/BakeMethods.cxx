@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakeMethods.h"
 
+#include "BakeReuse.h"
 #include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "FreeMemory.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -48,11 +50,14 @@ double errorOfAll(double own, double weight, const ProcessGroup& group)
 class MethodBake
 {
 public:
-  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report,
+    BakeReuse& reuse)
     : task_(task)
     , group_(group)
     , progress_(progress)
     , report_(report)
+    , reuse_(reuse)
+    , reuses_(BakeReuse::suits(report.method, task))
     , particles_(static_cast<double>(task.receivers.size()))
   {
   }
@@ -66,7 +71,7 @@ public:
     {
       sortForSweep(task_.cloud, particles);
     }
-    auto scene = makeScene();
+    auto scene = makeScene(task_);
     if (!task_.settings.light) // which is mixed in later
     {
       options.afterSweep = [&scene]
@@ -87,39 +92,68 @@ public:
     EmbreeOptions options;
     options.targetError = task_.targetError;
     const EmbreeEstimator embree(options);
-    requireMemory(memoryOf(task_, embree), task_.receivers.size());
-    BakeResult result =
-      bakeOcclusion(*makeScene(), task_.receivers, task_.settings, embree, progress_);
-    finish(result, embree.report().directions, embree.report().estimatedError, false);
+    BakeResult result = bakeChanges(embree);
+    const auto& [directions, error, reached, above] = embree.report();
+    if (reuses_)
+    {
+      finish(result, reuse_.mostDirections(directions), reuse_.textures().estimatedError(), false);
+    }
+    else
+    {
+      finish(result, directions, error, false);
+    }
     return result;
   }
 
   BakeResult byReference()
   {
     const ReferenceEstimator reference;
-    requireMemory(memoryOf(task_, reference), task_.receivers.size());
-    const auto scene = makeScene();
-    double error = 0;
-    if (task_.targetError > 0)
+    if (task_.targetError == 0)
     {
-      const PilotResult pilot = samplesForError(
-        *scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
-      task_.settings.samplesPerTexel = pilot.samplesPerTexel;
-      error = pilot.estimatedError;
+      BakeResult result = bakeChanges(reference);
+      finish(result, 0, 0, true);
+      return result;
     }
+    requireMemory(memoryOf(task_, reference), task_.receivers.size());
+    const auto scene = makeScene(task_);
+    const PilotResult pilot = samplesForError(
+      *scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
+    task_.settings.samplesPerTexel = pilot.samplesPerTexel;
     BakeResult result =
       bakeOcclusion(*scene, task_.receivers, task_.settings, reference, progress_);
-    finish(result, 0, error, true);
+    finish(result, 0, pilot.estimatedError, true);
     return result;
   }
 
 private:
-  /// Takes over the particles of the task.
-  std::unique_ptr<const BakeScene> makeScene()
+  /// Takes over the particles of a task.
+  std::unique_ptr<const BakeScene> makeScene(BakeTask& task)
   {
-    auto scene = std::make_unique<const BakeScene>(std::move(task_.cloud), task_.occluders, group_);
+    auto scene = std::make_unique<const BakeScene>(std::move(task.cloud), task.occluders, group_);
     returnFreeMemory(); // of what has read and sorted the particles
     return scene;
+  }
+
+  /// By a method that can reuse textures; in the order of the receivers.
+  BakeResult bakeChanges(const OcclusionEstimator& estimator)
+  {
+    requireMemory(memoryOf(task_, estimator) + (reuses_ ? reuse_.bytesMissing(task_) : 0),
+      task_.receivers.size());
+    if (!reuses_)
+    {
+      return bakeOcclusion(
+        *makeScene(task_), task_.receivers, task_.settings, estimator, progress_);
+    }
+    std::optional<BakeTask> changed = reuse_.begin(report_.method, task_);
+    BakeTask& part = changed ? *changed : task_;
+    BakeResult result = bakeOcclusion(
+      *makeScene(part), part.receivers, part.settings, estimator, progress_, reuse_.textures());
+    if (!result.aborted)
+    {
+      reuse_.commit();
+      report_.reused = group_.sum(std::uint64_t(reuse_.textures().reused()));
+    }
+    return result;
   }
 
   /// @param errorIsOfAll whether the estimator has found it over all processes
@@ -142,6 +176,8 @@ private:
   const ProcessGroup& group_;
   Progress& progress_;
   BakeReport& report_;
+  BakeReuse& reuse_;
+  bool reuses_;      ///< does the task suit it?
   double particles_; ///< how many
 };
 }
@@ -169,17 +205,18 @@ int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
   // Within about two radii the near spheres, which Embree's method tests without rays, are all
   // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
   const double distance = task.settings.maximumDistance;
-  const bool close = distance > 0 && distance <= 2 * task.cloud.scale;
+  // Where textures are to be reused, parts of the set are baked.
+  const bool close = distance > 0 && (task.reuseUnchanged || distance <= 2 * task.cloud.scale);
   const bool full = group.any(memoryOf(task, SweepEstimator(sweepFor(task))) > freeMemory());
   return triangles || close || full ? vtkSphereAmbientOcclusion::Embree
                                     : vtkSphereAmbientOcclusion::Sweep;
 }
 
-BakeResult bakeByMethod(
-  int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+BakeResult bakeByMethod(int method, BakeTask& task, const ProcessGroup& group, Progress& progress,
+  BakeReport& report, BakeReuse& reuse)
 {
   report.method = method;
-  MethodBake bake(task, group, progress, report);
+  MethodBake bake(task, group, progress, report, reuse);
   switch (method)
   {
     case vtkSphereAmbientOcclusion::Sweep:

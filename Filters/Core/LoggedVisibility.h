@@ -17,7 +17,7 @@
 namespace po
 {
 /// What the directions of a sweep see of the listed particles, out of core: the masks are written
-/// to a temporary file as they come, and are summed when the sweep is over, for a part of the list
+/// to a temporary file as they come, and are summed when sums are asked for, for a part of the list
 /// at a time. The sums have the same bits as in memory.
 ///
 /// A mask takes 2 bytes for each group of texels of which some that face the direction are hidden,

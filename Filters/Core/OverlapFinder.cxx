@@ -71,9 +71,22 @@ void boxBounds(const RTCBoundsFunctionArguments* arguments)
 /// What Embree calls back with: a box of a brick stands for some spheres of the set.
 struct Query
 {
+  static constexpr unsigned NoId = std::numeric_limits<unsigned>::max();
+
+  Query(const SphereSet& set, unsigned number)
+    : Query(set, number, set.center(number), set.spheres()[number].radius)
+  {
+  }
+  Query(const SphereSet& set, const Sphere& sphere)
+    : Query(set, NoId, sphere.center().as<double>(), sphere.radius)
+  {
+  }
+
   const SphereSet* spheres;
-  unsigned id;
-  const SphereBoxes* boxes; ///< that are being searched
+  unsigned id; ///< in the set, if it is one of these
+  Vec3d center;
+  float radius;
+  const SphereBoxes* boxes = nullptr; ///< that are being searched
 
   /// Calls action(id) for the other spheres of a box.
   template <typename Action>
@@ -89,16 +102,23 @@ struct Query
         }
       });
   }
-  [[nodiscard]] Vec3d offsetTo(unsigned other) const
+  [[nodiscard]] Vec3d offsetTo(unsigned other) const { return spheres->center(other) - center; }
+
+private:
+  Query(const SphereSet& set, unsigned number, Vec3d place, float size)
+    : spheres(&set)
+    , id(number)
+    , center(place)
+    , radius(size)
   {
-    return spheres->center(other) - spheres->center(id);
   }
 };
 
 struct OverlapQuery : Query
 {
-  Overlaps* result;
-  bool outOfMemory; ///< Embree would swallow the exception, and overlaps would be missing
+  using Query::Query;
+  Overlaps* result = nullptr;
+  bool outOfMemory = false; ///< Embree would swallow the exception, and overlaps would be missing
 };
 
 /// A surface point c + r n of a sphere is inside one of radius R at d when |r n - d|^2 < R^2, that
@@ -145,8 +165,8 @@ bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
     query->forOthers(arguments,
       [&](unsigned other)
       {
-        addOverlap(spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, other,
-          *query->result);
+        addOverlap(
+          query->radius, query->offsetTo(other), spheres[other].radius, other, *query->result);
       });
   }
   catch (const std::bad_alloc&)
@@ -158,16 +178,16 @@ bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
 
 float gapTo(const Query& query, unsigned other)
 {
-  const std::vector<Sphere>& spheres = query.spheres->spheres();
-  return length(query.offsetTo(other).as<float>()) - spheres[query.id].radius -
-    spheres[other].radius;
+  return length(query.offsetTo(other).as<float>()) - query.radius -
+    query.spheres->spheres()[other].radius;
 }
 
 struct NearQuery : Query
 {
-  float reach;
-  std::size_t limit;
-  std::vector<Neighbour>* nearest; ///< a heap, the farthest on top
+  using Query::Query;
+  float reach = 0;
+  std::size_t limit = 0;
+  std::vector<Neighbour>* nearest = nullptr; ///< a heap, the farthest on top
 };
 
 /// Keeps a sphere if it is among the nearest.
@@ -198,8 +218,9 @@ bool visitNear(RTCPointQueryFunctionArguments* arguments)
 
 struct AnyQuery : Query
 {
-  float reach;
-  bool isFound;
+  using Query::Query;
+  float reach = 0;
+  bool isFound = false;
 };
 
 bool visitAny(RTCPointQueryFunctionArguments* arguments)
@@ -265,23 +286,20 @@ void OverlapFinder::addBoxes(const Brick& brick)
   commitScene(device_.get(), scenes_.back(), "building the search structure for overlaps");
 }
 
-/// Calls visit for all spheres whose box comes within `radius` of the centre of sphere `id`.
+/// Calls visit for all spheres whose box comes within `reach` of the surface of the query's sphere.
 template <typename Specific>
-void OverlapFinder::search(
-  unsigned id, float radius, RTCPointQueryFunction visit, Specific& query) const
+void OverlapFinder::search(Specific& query, float reach, RTCPointQueryFunction visit) const
 {
-  query.spheres = spheres_;
-  query.id = id;
-  const Vec3d center = spheres_->center(id);
+  const float radius = query.radius + reach;
   for (std::size_t i = 0; i < scenes_.size(); ++i)
   {
     const Brick& brick = spheres_->bricks()[i];
     query.boxes = boxes_[i].get();
-    if (scenes_.size() > 1 && !isWithin(brick, center, radius))
+    if (scenes_.size() > 1 && !isWithin(brick, query.center, radius))
     {
       continue;
     }
-    const Vec3f place = (center - brick.origin).as<float>();
+    const Vec3f place = (query.center - brick.origin).template as<float>();
     // Rounding must not lose a box that just comes within the radius.
     const float size = radius + std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
     RTCPointQuery point;
@@ -300,8 +318,9 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
 {
   result.buried = false;
   result.caps.clear();
-  OverlapQuery query{ {}, &result, false };
-  search(id, spheres_->spheres()[id].radius, visitOverlaps, query);
+  OverlapQuery query(*spheres_, id);
+  query.result = &result;
+  search(query, 0, visitOverlaps);
   if (query.outOfMemory)
   {
     throw std::bad_alloc();
@@ -313,15 +332,27 @@ void OverlapFinder::findNear(
 {
   result.clear();
   result.reserve(std::min(limit, spheres_->size())); // so that visitNear allocates nothing
-  NearQuery query{ {}, reach, limit, &result };
-  search(id, spheres_->spheres()[id].radius + reach, visitNear, query);
+  NearQuery query(*spheres_, id);
+  query.reach = reach;
+  query.limit = limit;
+  query.nearest = &result;
+  search(query, reach, visitNear);
   std::sort_heap(result.begin(), result.end());
 }
 
 bool OverlapFinder::hasNear(unsigned id, float reach) const
 {
-  AnyQuery query{ {}, reach, false };
-  search(id, spheres_->spheres()[id].radius + reach, visitAny, query);
+  AnyQuery query(*spheres_, id);
+  query.reach = reach;
+  search(query, reach, visitAny);
+  return query.isFound;
+}
+
+bool OverlapFinder::hasNear(const Sphere& sphere, float reach) const
+{
+  AnyQuery query(*spheres_, sphere);
+  query.reach = reach;
+  search(query, reach, visitAny);
   return query.isFound;
 }
 }

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace po
 {
@@ -67,12 +66,10 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   {
     division_.emplace(group, records);
   }
-  takesPart_.reserve(alone.size());
-  for (const std::uint8_t isAlone : alone)
-  {
-    takesPart_.push_back(isAlone != 0 ? Never : WhereAllDo);
-    all_ += isAlone != 0 ? 0 : 1;
-  }
+  takesPart_.resize(alone.size());
+  std::transform(alone.begin(), alone.end(), takesPart_.begin(),
+    [](std::uint8_t isAlone) { return isAlone != 0 ? Never : WhereAllDo; });
+  all_ = static_cast<std::size_t>(std::count(alone.begin(), alone.end(), 0));
 }
 
 void SphereSweep::run(
@@ -248,13 +245,6 @@ void SphereSweep::judgeClosedCells(bool full)
   pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
   // Without the buried ones less is spared.
   closedCellsPay_[0] = closedCellsPay_[0] && closedCellsPay_[1];
-}
-
-SweepCounters SphereSweep::counters() const
-{
-  SweepCounters sum = counters(false);
-  sum.add(counters(true));
-  return sum;
 }
 
 SweepCounters SphereSweep::counters(bool full) const

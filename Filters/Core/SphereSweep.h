@@ -60,7 +60,12 @@ public:
 
   /// Directions so far, those that the background makes black included.
   [[nodiscard]] int directions() const { return directions_; }
-  [[nodiscard]] SweepCounters counters() const;
+  [[nodiscard]] SweepCounters counters() const
+  {
+    SweepCounters sum = counters(false);
+    sum.add(counters(true));
+    return sum;
+  }
   /// Those that take part.
   [[nodiscard]] std::size_t spheres() const { return all_; }
   /// Spheres left out since no direction had shown them, summed over the directions swept here.

@@ -42,14 +42,14 @@ private:
 
 TEST(MemoryBudget, AutomaticTakesEmbreeWhereSweepDoesNotFit)
 {
-  const auto input = lattice(20);
-  const auto methodUnder = [&](int method, double megabytes, std::string& error,
-                             int resolution = 64, int encoding = Filter::UInt8Gamma2)
+  const auto small = lattice(20);
+  const auto methodUnder = [&](int method, double megabytes, std::string& error, vtkPolyData* input,
+                             int encoding = Filter::UInt8Gamma2)
   {
     const Budget budget(megabytes);
     vtkNew<vtkSphereAmbientOcclusion> filter;
     filter->SetInputData(input);
-    filter->SetTextureResolution(resolution);
+    filter->SetTextureResolution(64);
     filter->SetEncoding(encoding);
     filter->SetMethod(method);
     // The method is chosen before the first report, so nothing need be baked.
@@ -64,18 +64,19 @@ TEST(MemoryBudget, AutomaticTakesEmbreeWhereSweepDoesNotFit)
   std::string error;
   // 8000 * 64 * 64 texels: 190 MiB for Embree, 500 for Sweep in memory, 100 out of core (see
   // bakeMemory).
-  EXPECT_EQ(methodUnder(Method::Automatic, 2000, error), "Sweep");
+  EXPECT_EQ(methodUnder(Method::Automatic, 2000, error, small), "Sweep");
   EXPECT_EQ(error, "");
-  EXPECT_EQ(methodUnder(Method::Automatic, 150, error), "Sweep"); // out of core
+  EXPECT_EQ(methodUnder(Method::Automatic, 150, error, small), "Sweep"); // out of core
   EXPECT_EQ(error, "");
-  // As floats, 8000 * 128 * 128 texels: 1010 MiB for Embree, 1130 for Sweep out of core.
-  EXPECT_EQ(methodUnder(Method::Automatic, 1070, error, 128, Filter::Float32Linear), "Embree");
+  // As floats, 27,000 * 64 * 64 texels: 850 MiB for Embree, 960 for Sweep out of core.
+  EXPECT_EQ(
+    methodUnder(Method::Automatic, 905, error, lattice(30), Filter::Float32Linear), "Embree");
   EXPECT_EQ(error, "");
   for (const auto& [method, megabytes] :
     { std::pair(Method::Automatic, 60), std::pair(Method::Sweep, 60),
       std::pair(Method::Embree, 150), std::pair(Method::Reference, 150) })
   {
-    methodUnder(method, megabytes, error);
+    methodUnder(method, megabytes, error, small);
     EXPECT_NE(error.find("are free: lower TextureResolution"), std::string::npos) << error;
   }
 }
