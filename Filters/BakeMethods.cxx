@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakeMethods.h"
 
+#include "BakeReuse.h"
 #include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "FreeMemory.h"
+#include "HeapMemory.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
+#include "SweepOrder.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -45,18 +49,27 @@ double errorOfAll(double own, double weight, const ProcessGroup& group)
 class MethodBake
 {
 public:
-  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report,
+    BakeReuse& reuse)
     : task_(task)
     , group_(group)
     , progress_(progress)
     , report_(report)
+    , reuse_(reuse)
+    , reuses_(BakeReuse::suits(report.method, task))
   {
   }
 
   BakeResult bySweep()
   {
     const SweepEstimator sweep = sweepFor(task_);
-    BakeResult result = bake(sweep);
+    requireMemory(memoryOf(task_, sweep), task_.receivers.size());
+    std::vector<unsigned> particles = task_.receivers;
+    if (task_.occluders.spheres.empty())
+    {
+      sortForSweep(task_.cloud, particles);
+    }
+    BakeResult result = bake(sweep, particles);
     finish(result, sweep.report().directions, sweep.report().estimatedError, task_.targetError > 0);
     report_.refined = result.aborted ? 0 : group_.sum(std::uint64_t(sweep.report().refined));
     return result;
@@ -67,35 +80,66 @@ public:
     EmbreeOptions options;
     options.targetError = task_.targetError;
     const EmbreeEstimator embree(options);
-    BakeResult result = bake(embree);
-    finish(result, embree.report().directions, embree.report().estimatedError, false);
+    BakeResult result = bakeChanges(embree);
+    const auto& [directions, error, reached, above] = embree.report();
+    if (reuses_)
+    {
+      finish(result, reuse_.mostDirections(directions), reuse_.textures().estimatedError(), false);
+    }
+    else
+    {
+      finish(result, directions, error, false);
+    }
     return result;
   }
 
   BakeResult byReference()
   {
     const ReferenceEstimator reference;
-    requireMemory(memoryOf(task_, reference), task_.receivers.size());
-    const BakeScene scene(task_.cloud, task_.occluders, group_);
-    double error = 0;
-    if (task_.targetError > 0)
+    if (task_.targetError == 0)
     {
-      const PilotResult pilot = samplesForError(
-        scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
-      task_.settings.samplesPerTexel = pilot.samplesPerTexel;
-      error = pilot.estimatedError;
+      BakeResult result = bakeChanges(reference);
+      finish(result, 0, 0, true);
+      return result;
     }
+    requireMemory(memoryOf(task_, reference), task_.receivers.size());
+    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
+    const PilotResult pilot = samplesForError(
+      scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
+    task_.settings.samplesPerTexel = pilot.samplesPerTexel;
     BakeResult result = bakeOcclusion(scene, task_.receivers, task_.settings, reference, progress_);
-    finish(result, 0, error, true);
+    finish(result, 0, pilot.estimatedError, true);
     return result;
   }
 
 private:
-  BakeResult bake(const OcclusionEstimator& estimator)
+  BakeResult bake(const OcclusionEstimator& estimator, const std::vector<unsigned>& particles)
   {
-    requireMemory(memoryOf(task_, estimator), task_.receivers.size());
-    return bakeOcclusion(BakeScene(task_.cloud, task_.occluders, group_), task_.receivers,
-      task_.settings, estimator, progress_);
+    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
+    returnFreeMemory(); // of what has read and sorted the particles
+    return bakeOcclusion(scene, particles, task_.settings, estimator, progress_);
+  }
+
+  /// By a method that can reuse textures; in the order of the receivers.
+  BakeResult bakeChanges(const OcclusionEstimator& estimator)
+  {
+    requireMemory(memoryOf(task_, estimator) + (reuses_ ? reuse_.bytesMissing(task_) : 0),
+      task_.receivers.size());
+    if (!reuses_)
+    {
+      return bake(estimator, task_.receivers);
+    }
+    std::optional<BakeTask> changed = reuse_.begin(report_.method, task_);
+    BakeTask& part = changed ? *changed : task_;
+    const BakeScene scene(std::move(part.cloud), part.occluders, group_);
+    BakeResult result =
+      bakeOcclusion(scene, part.receivers, part.settings, estimator, progress_, reuse_.textures());
+    if (!result.aborted)
+    {
+      reuse_.commit();
+      report_.reused = group_.sum(std::uint64_t(reuse_.textures().reused()));
+    }
+    return result;
   }
 
   /// @param errorIsOfAll whether the estimator has found it over all processes
@@ -119,6 +163,8 @@ private:
   const ProcessGroup& group_;
   Progress& progress_;
   BakeReport& report_;
+  BakeReuse& reuse_;
+  bool reuses_; ///< does the task suit it?
 };
 }
 
@@ -127,23 +173,6 @@ std::vector<unsigned> distinct(std::vector<unsigned> numbers)
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
-}
-
-BakeResult inOrderOf(
-  const std::vector<unsigned>& places, const std::vector<unsigned>& receivers, BakeResult result)
-{
-  const std::vector<std::int32_t> rows = std::move(result.rowOf);
-  const std::vector<float> means = std::move(result.mean);
-  result.rowOf.clear();
-  result.mean.clear();
-  for (const unsigned place : places)
-  {
-    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), place);
-    const auto index = static_cast<std::size_t>(receiver - receivers.begin());
-    result.rowOf.push_back(rows[index]);
-    result.mean.push_back(means[index]);
-  }
-  return result;
 }
 
 int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
@@ -162,17 +191,18 @@ int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
   // Within about two radii the near spheres, which Embree's method tests without rays, are all
   // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
   const double distance = task.settings.maximumDistance;
-  const bool close = distance > 0 && distance <= 2 * task.cloud.scale;
+  // Where textures are to be reused, parts of the set are baked.
+  const bool close = distance > 0 && (task.reuseUnchanged || distance <= 2 * task.cloud.scale);
   const bool full = group.any(memoryOf(task, sweepFor(task)) > freeMemory());
   return triangles || close || full ? vtkSphereAmbientOcclusion::Embree
                                     : vtkSphereAmbientOcclusion::Sweep;
 }
 
-BakeResult bakeByMethod(
-  int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+BakeResult bakeByMethod(int method, BakeTask& task, const ProcessGroup& group, Progress& progress,
+  BakeReport& report, BakeReuse& reuse)
 {
   report.method = method;
-  MethodBake bake(task, group, progress, report);
+  MethodBake bake(task, group, progress, report, reuse);
   switch (method)
   {
     case vtkSphereAmbientOcclusion::Sweep:

@@ -6,6 +6,7 @@
 #include "BakeParameters.h"
 #include "BakedData.h"
 #include "ControllerGroup.h"
+#include "HeapMemory.h"
 
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"
@@ -43,6 +44,13 @@ void announce(vtkAlgorithm* algorithm, double share, const char* phase)
 }
 }
 
+void vtkSphereAmbientOcclusion::Internals::Reset()
+{
+  this->Report = {};
+  this->Seconds = 0;
+  this->RadiusUsed.clear();
+}
+
 void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   const po::ProcessGroup& group, const std::vector<vtkPointSet*>& blocks,
   vtkDataObject* occluderData)
@@ -60,8 +68,12 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   po::Progress progress(reportTo(self, progress)); // which is called later
   const int method = po::chooseMethod(self->Method, input.task, group);
   std::string warning;
-  po::BakeResult result =
-    po::bakeOrLoad(po::cacheOf(*self), method, input.task, group, progress, this->Report, warning);
+  if (!po::BakeReuse::suits(method, input.task))
+  {
+    this->Reuse = {}; // its memory may be needed
+  }
+  po::BakeResult result = po::bakeOrLoad(
+    po::cacheOf(*self), method, input.task, group, progress, this->Report, this->Reuse, warning);
   if (!warning.empty())
   {
     vtkWarningWithObjectMacro(self, << warning);
@@ -71,8 +83,8 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
     group.stop(po::WorkState::Aborted);
     throw po::WorkStopped(po::WorkState::Aborted, "");
   }
-  result = po::inOrderOf(input.places, input.task.receivers, std::move(result));
-  this->CountParticles(input.own, result, settings, group);
+  po::returnFreeMemory();
+  this->CountParticles(input, result, settings, group);
   const double error = this->Report.estimatedError;
   if (self->TargetError > 0 && error > self->TargetError && group.rank() == 0)
   {
@@ -83,22 +95,24 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   group.agree(); // nobody was aborted: from here on it is all or nothing
   announce(self, 1, "Storing textures");
   po::attachBake(
-    blocks, input.own, std::move(result), po::describeBake(*self, settings, this->Report));
+    blocks, input.points, std::move(result), po::describeBake(*self, settings, this->Report));
   group.agree();
 }
 
 /// Ghosts were baked, since they are drawn, but count where they are at home.
-void vtkSphereAmbientOcclusion::Internals::CountParticles(const po::SphereCloud& own,
+void vtkSphereAmbientOcclusion::Internals::CountParticles(const po::BakeInput& input,
   const po::BakeResult& result, const po::BakeSettings& settings, const po::ProcessGroup& group)
 {
   std::uint64_t owned = 0;
   std::uint64_t dark = 0;
-  const std::vector<std::uint8_t>& ghosts = own.ghosts;
-  for (std::size_t i = 0; i < result.mean.size(); ++i)
+  for (std::size_t point = 0; point < input.points.size(); ++point)
   {
-    const bool isOwned = ghosts.empty() || ghosts[i] == 0;
-    owned += isOwned;
-    dark += isOwned && result.mean[i] == 0;
+    const bool isGhost = !input.ghosts.empty() && input.ghosts[point] != 0;
+    if (input.points[point] != po::NoReceiver && !isGhost)
+    {
+      ++owned;
+      dark += result.mean[input.points[point]] == 0 ? 1 : 0;
+    }
   }
   const auto side = static_cast<std::uint64_t>(settings.textureResolution);
   this->Report.counters.particles = group.sum(owned);
@@ -142,7 +156,7 @@ int vtkSphereAmbientOcclusion::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const auto start = std::chrono::steady_clock::now();
-  *this->Impl = Internals();
+  this->Impl->Reset();
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
@@ -159,7 +173,7 @@ int vtkSphereAmbientOcclusion::RequestData(
   this->SetProgressText(nullptr);
   if (!baked)
   {
-    *this->Impl = Internals();
+    this->Impl->Reset();
     output->ShallowCopy(input); // without what some blocks may have got before the fault
     this->SetErrorCode(vtkErrorCode::UserError);
     if (group.rank() == 0)
@@ -216,6 +230,7 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "StorageError: " << this->StorageError << "\n"
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "IdArray: " << (this->IdArray ? this->IdArray : "(automatic)") << "\n"
+     << indent << "ReuseUnchanged: " << this->ReuseUnchanged << "\n"
      << indent << "OutOfCore: " << this->OutOfCore << "\n"
      << indent << "UseCache: " << this->UseCache << "\n"
      << indent << "CacheDirectory: " << (this->CacheDirectory ? this->CacheDirectory : "") << "\n"

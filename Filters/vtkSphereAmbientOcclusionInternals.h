@@ -2,7 +2,7 @@
 #ifndef vtkSphereAmbientOcclusionInternals_h
 #define vtkSphereAmbientOcclusionInternals_h
 
-#include "BakeMethods.h"
+#include "BakeReuse.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <string>
@@ -11,19 +11,28 @@
 class vtkDataObject;
 class vtkPointSet;
 
-/// One execution.
+namespace po
+{
+struct BakeInput;
+}
+
+/// The last execution.
 struct vtkSphereAmbientOcclusion::Internals
 {
   po::BakeReport Report;
   double Seconds = 0;
   std::string RadiusUsed;
   std::string Estimate;
+  po::BakeReuse Reuse; ///< what is left of it for the next one
+
+  /// Forgets what is reported of it.
+  void Reset();
 
   /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
   void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
     const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluderData);
 
-  void CountParticles(const po::SphereCloud& own, const po::BakeResult& result,
+  void CountParticles(const po::BakeInput& input, const po::BakeResult& result,
     const po::BakeSettings& settings, const po::ProcessGroup& group);
 };
 

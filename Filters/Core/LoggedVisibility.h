@@ -2,12 +2,12 @@
 #ifndef po_LoggedVisibility_h
 #define po_LoggedVisibility_h
 
+#include "AxisWeights.h"
 #include "MaskCode.h"
 #include "ScratchFile.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -16,16 +16,6 @@
 
 namespace po
 {
-/// What a texel's point receives of an axis: it faces one of the two directions at most.
-struct AxisWeights
-{
-  std::size_t pattern;        ///< of the points
-  std::vector<GroupMask> lit; ///< [groups] texels that face a direction that is not black
-  std::array<std::vector<GroupMask>, 2>
-    facing;                  ///< [groups] those that face against the axis, along it; or empty
-  std::vector<float> weight; ///< [slots] height over the horizon times luminance, 0 if not lit
-};
-
 /// What the directions of a sweep see of the listed particles, out of core: the masks are written
 /// to a temporary file as they come, and are summed when the sweep is over, for a part of the list
 /// at a time. The sums have the same bits as in memory.

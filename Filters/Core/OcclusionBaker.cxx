@@ -14,6 +14,7 @@
 #include <cstring>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace po
 {
@@ -149,38 +150,75 @@ private:
 };
 
 template <typename Element>
-std::vector<Element> joined(const std::vector<Element>& first, const std::vector<Element>& second)
+void append(std::vector<Element>& first, const std::vector<Element>& second)
 {
-  std::vector<Element> all;
-  all.reserve(first.size() + second.size());
-  all.insert(all.end(), first.begin(), first.end());
-  all.insert(all.end(), second.begin(), second.end());
-  return all;
+  first.reserve(first.size() + second.size());
+  first.insert(first.end(), second.begin(), second.end());
 }
 
 /// Centres in full, if there are none those of the floats.
-std::vector<Vec3d> fullCenters(
-  const std::vector<Sphere>& spheres, const std::vector<Vec3d>& centers)
+void fillCenters(const std::vector<Sphere>& spheres, std::vector<Vec3d>& centers)
 {
-  std::vector<Vec3d> all = centers;
-  for (std::size_t i = all.size(); i < spheres.size(); ++i)
+  centers.reserve(spheres.size());
+  for (std::size_t i = centers.size(); i < spheres.size(); ++i)
   {
-    all.push_back(spheres[i].center().as<double>());
+    centers.push_back(spheres[i].center().as<double>());
   }
-  return all;
 }
 
-/// The particles, then the occluders.
-SphereSet joined(const SphereCloud& cloud, const Occluders& occluders)
+/// The particles, then the occluders. Takes the spheres out of the cloud.
+SphereSet joined(SphereCloud& cloud, const Occluders& occluders)
 {
-  std::vector<Sphere> spheres = joined(cloud.spheres, occluders.spheres);
-  if (cloud.centers.empty() && occluders.centers.empty())
+  std::vector<Sphere> spheres = std::move(cloud.spheres);
+  std::vector<Vec3d> centers = std::move(cloud.centers);
+  if (!centers.empty() || !occluders.centers.empty())
   {
-    return SphereSet(std::move(spheres));
+    std::vector<Vec3d> others = occluders.centers;
+    fillCenters(occluders.spheres, others);
+    fillCenters(spheres, centers);
+    append(centers, others);
   }
-  return SphereSet(std::move(spheres),
-    joined(fullCenters(cloud.spheres, cloud.centers),
-      fullCenters(occluders.spheres, occluders.centers)));
+  append(spheres, occluders.spheres);
+  return SphereSet(std::move(spheres), std::move(centers));
+}
+
+/// @param kept null: there are no other textures, and none are kept
+BakeResult bakeBetween(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress,
+  TextureMemory* kept)
+{
+  BakeResult result;
+  TextureCollector collector(settings, kept ? kept->size() : particles.size());
+  std::optional<BakedLight> light;
+  if (settings.light)
+  {
+    light.emplace(scene, particles, settings, progress);
+    if (progress.aborted())
+    {
+      result.aborted = true;
+      return result; // other processes may be amid the light: nothing more is exchanged with them
+    }
+  }
+  const auto collect = [&](const RawTextures& textures) { collector.add(textures); };
+  const auto take = [&](const RawTextures& raw)
+  {
+    const RawTextures lit = light ? light->addTo(raw, progress) : raw;
+    kept ? kept->add(lit, collect) : collect(lit);
+  };
+  estimator.estimate(scene, particles, settings, progress, take, result.counters);
+  result.counters.rays += light ? light->rays() : 0;
+  result.aborted = progress.aborted();
+  if (!result.aborted)
+  {
+    double error = estimator.estimatedError();
+    if (kept)
+    {
+      kept->finish(error, collect);
+      error = kept->estimatedError();
+    }
+    collector.finish(result, SureShareOfError * error, scene.group);
+  }
+  return result;
 }
 
 /// Hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
@@ -188,10 +226,11 @@ constexpr double BytesPerSphere = 300;
 }
 
 BakeScene::BakeScene(
-  const SphereCloud& sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
-  : set_(std::make_shared<const SphereSet>(joined(sphereCloud, occluders)))
+  SphereCloud sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
+  : receivers_(sphereCloud.spheres.size())
+  , set_(std::make_shared<const SphereSet>(joined(sphereCloud, occluders)))
   , hasMesh_(!occluders.mesh.triangles.empty())
-  , cloud(sphereCloud)
+  , cloud(std::move(sphereCloud))
   , overlaps(*set_)
   , group(processes)
 {
@@ -217,7 +256,7 @@ std::uint64_t BakeScene::randomKey(unsigned particle) const
   }
   std::array<std::uint64_t, 2> words{};
   static_assert(sizeof(words) == sizeof(Sphere));
-  std::memcpy(words.data(), &cloud.spheres[particle], sizeof(words));
+  std::memcpy(words.data(), &set_->spheres()[particle], sizeof(words));
   return mixBits(words[0] + 0x9E3779B97F4A7C15ull * mixBits(words[1]));
 }
 
@@ -286,28 +325,13 @@ BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
 BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& particles,
   const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress)
 {
-  BakeResult result;
-  TextureCollector collector(settings, particles.size());
-  std::optional<BakedLight> light;
-  if (settings.light)
-  {
-    light.emplace(scene, particles, settings, progress);
-    if (progress.aborted())
-    {
-      result.aborted = true;
-      return result; // other processes may be amid the light: nothing more is exchanged with them
-    }
-  }
-  estimator.estimate(
-    scene, particles, settings, progress,
-    [&](const RawTextures& raw) { collector.add(light ? light->addTo(raw, progress) : raw); },
-    result.counters);
-  result.counters.rays += light ? light->rays() : 0;
-  result.aborted = progress.aborted();
-  if (!result.aborted)
-  {
-    collector.finish(result, SureShareOfError * estimator.estimatedError(), scene.group);
-  }
-  return result;
+  return bakeBetween(scene, particles, settings, estimator, progress, nullptr);
+}
+
+BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress,
+  TextureMemory& kept)
+{
+  return bakeBetween(scene, particles, settings, estimator, progress, &kept);
 }
 }

@@ -17,25 +17,24 @@ struct SphereBoxes
   /// half a second to build for a million.
   static constexpr std::size_t Spheres = 8;
 
-  struct Places
-  {
-    const unsigned* first;
-    const unsigned* last;
-    [[nodiscard]] const unsigned* begin() const { return first; }
-    [[nodiscard]] const unsigned* end() const { return last; }
-  };
-
   const Brick* brick;
-  std::vector<unsigned> places; ///< box after box
+  std::vector<unsigned> places; ///< box after box; empty: one after the other
 
   [[nodiscard]] unsigned count() const
   {
-    return static_cast<unsigned>((places.size() + Spheres - 1) / Spheres);
+    return static_cast<unsigned>((brick->count + Spheres - 1) / Spheres);
   }
-  [[nodiscard]] Places in(unsigned box) const
+
+  /// Calls action(place) for the spheres of a box.
+  template <typename Action>
+  void forEachIn(unsigned box, const Action& action) const
   {
     const std::size_t first = Spheres * box;
-    return { places.data() + first, places.data() + std::min(first + Spheres, places.size()) };
+    const std::size_t last = std::min(first + Spheres, brick->count);
+    for (std::size_t i = first; i < last; ++i)
+    {
+      action(places.empty() ? static_cast<unsigned>(i) : places[i]);
+    }
   }
 };
 
@@ -55,49 +54,71 @@ void boxBounds(const RTCBoundsFunctionArguments* arguments)
   const auto& boxes = *static_cast<const SphereBoxes*>(arguments->geometryUserPtr);
   constexpr float infinity = std::numeric_limits<float>::infinity();
   RTCBounds box{ infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0 };
-  for (const unsigned place : boxes.in(arguments->primID))
-  {
-    const Sphere& s = boxes.brick->spheres[place];
-    box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
-    box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
-    box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
-    box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
-    box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
-    box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
-  }
+  boxes.forEachIn(arguments->primID,
+    [&](unsigned place)
+    {
+      const Sphere& s = boxes.brick->spheres[place];
+      box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
+      box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
+      box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
+      box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
+      box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
+      box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
+    });
   *arguments->bounds_o = box;
 }
 
 /// What Embree calls back with: a box of a brick stands for some spheres of the set.
 struct Query
 {
+  static constexpr unsigned NoId = std::numeric_limits<unsigned>::max();
+
+  Query(const SphereSet& set, unsigned number)
+    : Query(set, number, set.center(number), set.spheres()[number].radius)
+  {
+  }
+  Query(const SphereSet& set, const Sphere& sphere)
+    : Query(set, NoId, sphere.center().as<double>(), sphere.radius)
+  {
+  }
+
   const SphereSet* spheres;
-  unsigned id;
-  const SphereBoxes* boxes; ///< that are being searched
+  unsigned id; ///< in the set, if it is one of these
+  Vec3d center;
+  float radius;
+  const SphereBoxes* boxes = nullptr; ///< that are being searched
 
   /// Calls action(id) for the other spheres of a box.
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
-    for (const unsigned place : boxes->in(arguments->primID))
-    {
-      const unsigned other = boxes->brick->id(place);
-      if (other != id)
+    boxes->forEachIn(arguments->primID,
+      [&](unsigned place)
       {
-        action(other);
-      }
-    }
+        const unsigned other = boxes->brick->id(place);
+        if (other != id)
+        {
+          action(other);
+        }
+      });
   }
-  [[nodiscard]] Vec3d offsetTo(unsigned other) const
+  [[nodiscard]] Vec3d offsetTo(unsigned other) const { return spheres->center(other) - center; }
+
+private:
+  Query(const SphereSet& set, unsigned number, Vec3d place, float size)
+    : spheres(&set)
+    , id(number)
+    , center(place)
+    , radius(size)
   {
-    return spheres->center(other) - spheres->center(id);
   }
 };
 
 struct OverlapQuery : Query
 {
-  Overlaps* result;
-  bool outOfMemory; ///< Embree would swallow the exception, and overlaps would be missing
+  using Query::Query;
+  Overlaps* result = nullptr;
+  bool outOfMemory = false; ///< Embree would swallow the exception, and overlaps would be missing
 };
 
 /// How a sphere of radius `radius`, at `d` from one of radius r, cuts the surface of that one. A
@@ -137,10 +158,8 @@ bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
   try
   {
     query->forOthers(arguments,
-      [&](unsigned other)
-      {
-        addOverlap(
-          spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
+      [&](unsigned other) {
+        addOverlap(query->radius, query->offsetTo(other), spheres[other].radius, *query->result);
       });
   }
   catch (const std::bad_alloc&)
@@ -152,16 +171,16 @@ bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
 
 float gapTo(const Query& query, unsigned other)
 {
-  const std::vector<Sphere>& spheres = query.spheres->spheres();
-  return length(query.offsetTo(other).as<float>()) - spheres[query.id].radius -
-    spheres[other].radius;
+  return length(query.offsetTo(other).as<float>()) - query.radius -
+    query.spheres->spheres()[other].radius;
 }
 
 struct NearQuery : Query
 {
-  float reach;
-  std::size_t limit;
-  std::vector<Neighbour>* nearest; ///< a heap, the farthest on top
+  using Query::Query;
+  float reach = 0;
+  std::size_t limit = 0;
+  std::vector<Neighbour>* nearest = nullptr; ///< a heap, the farthest on top
 };
 
 /// Keeps a sphere if it is among the nearest.
@@ -192,8 +211,9 @@ bool visitNear(RTCPointQueryFunctionArguments* arguments)
 
 struct AnyQuery : Query
 {
-  float reach;
-  bool isFound;
+  using Query::Query;
+  float reach = 0;
+  bool isFound = false;
 };
 
 bool visitAny(RTCPointQueryFunctionArguments* arguments)
@@ -251,23 +271,20 @@ void OverlapFinder::addBoxes(const Brick& brick)
   commitScene(device_.get(), scenes_.back(), "building the search structure for overlaps");
 }
 
-/// Calls visit for all spheres whose box comes within `radius` of the centre of sphere `id`.
+/// Calls visit for all spheres whose box comes within `reach` of the surface of the query's sphere.
 template <typename Specific>
-void OverlapFinder::search(
-  unsigned id, float radius, RTCPointQueryFunction visit, Specific& query) const
+void OverlapFinder::search(Specific& query, float reach, RTCPointQueryFunction visit) const
 {
-  query.spheres = spheres_;
-  query.id = id;
-  const Vec3d center = spheres_->center(id);
+  const float radius = query.radius + reach;
   for (std::size_t i = 0; i < scenes_.size(); ++i)
   {
     const Brick& brick = spheres_->bricks()[i];
     query.boxes = boxes_[i].get();
-    if (scenes_.size() > 1 && !isWithin(brick, center, radius))
+    if (scenes_.size() > 1 && !isWithin(brick, query.center, radius))
     {
       continue;
     }
-    const Vec3f place = (center - brick.origin).as<float>();
+    const Vec3f place = (query.center - brick.origin).template as<float>();
     // Rounding must not lose a box that just comes within the radius.
     const float size = radius + std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
     RTCPointQuery point;
@@ -286,8 +303,9 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
 {
   result.buried = false;
   result.caps.clear();
-  OverlapQuery query{ {}, &result, false };
-  search(id, spheres_->spheres()[id].radius, visitOverlaps, query);
+  OverlapQuery query(*spheres_, id);
+  query.result = &result;
+  search(query, 0, visitOverlaps);
   if (query.outOfMemory)
   {
     throw std::bad_alloc();
@@ -299,15 +317,27 @@ void OverlapFinder::findNear(
 {
   result.clear();
   result.reserve(std::min(limit, spheres_->size())); // so that visitNear allocates nothing
-  NearQuery query{ {}, reach, limit, &result };
-  search(id, spheres_->spheres()[id].radius + reach, visitNear, query);
+  NearQuery query(*spheres_, id);
+  query.reach = reach;
+  query.limit = limit;
+  query.nearest = &result;
+  search(query, reach, visitNear);
   std::sort_heap(result.begin(), result.end());
 }
 
 bool OverlapFinder::hasNear(unsigned id, float reach) const
 {
-  AnyQuery query{ {}, reach, false };
-  search(id, spheres_->spheres()[id].radius + reach, visitAny, query);
+  AnyQuery query(*spheres_, id);
+  query.reach = reach;
+  search(query, reach, visitAny);
+  return query.isFound;
+}
+
+bool OverlapFinder::hasNear(const Sphere& sphere, float reach) const
+{
+  AnyQuery query(*spheres_, sphere);
+  query.reach = reach;
+  search(query, reach, visitAny);
   return query.isFound;
 }
 }

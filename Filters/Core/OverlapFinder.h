@@ -45,7 +45,8 @@ struct SphereBoxes;
 ///
 /// Embree's point query looks the neighbours up in a hierarchy of boxes; it does not see sphere
 /// points (Embree 3 and 4), so the boxes are a user geometry. Eight spheres share a box: the
-/// hierarchy takes 13 bytes a sphere. The spheres must outlive the finder.
+/// hierarchy takes 9 bytes a sphere, and 4 more where these are in another order than it. The
+/// spheres must outlive the finder.
 class OverlapFinder
 {
 public:
@@ -65,11 +66,13 @@ public:
 
   /// Does the surface of any other sphere come within `reach` of that of sphere `id`?
   [[nodiscard]] bool hasNear(unsigned id, float reach) const;
+  /// The same for a sphere that is none of these.
+  [[nodiscard]] bool hasNear(const Sphere& sphere, float reach) const;
 
 private:
   void addBoxes(const Brick& brick);
   template <typename Specific>
-  void search(unsigned id, float radius, RTCPointQueryFunction visit, Specific& query) const;
+  void search(Specific& query, float reach, RTCPointQueryFunction visit) const;
 
   const SphereSet* spheres_;
   DeviceHandle device_;

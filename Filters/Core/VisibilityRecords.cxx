@@ -6,10 +6,9 @@
 #include "TexelCaps.h"
 
 #include <hwy/cache_control.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace po
 {
@@ -23,12 +22,6 @@ bool isSliver(const BuriedCap& cap)
 {
   return (1 - cap.cosine) / 2 < SmallestCap;
 }
-
-std::size_t countSet(const std::vector<std::uint8_t>& flags)
-{
-  return static_cast<std::size_t>(
-    std::count_if(flags.begin(), flags.end(), [](std::uint8_t flag) { return flag != 0; }));
-}
 }
 
 VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& order,
@@ -39,11 +32,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , order_(order)
   , texels_(texels)
   , seed_(seed)
-  , placeOf_(order.size(), NoPlace)
-  , surface_(order.size())
-  , rims_(order.size())
-  , records_(log ? 0 : countSet(listed))
-  , watched_(countSet(listed), 0)
+  , spheres_(order.size())
   , log_(std::move(log))
 {
   open_.total.assign(texels.slots(), 0.0f);
@@ -54,26 +43,28 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   // asks.
   for (unsigned sphere = 0; sphere < order.size(); ++sphere)
   {
-    placeOf_[sphere] = listed[sphere] != 0 ? places++ : NoPlace;
     const Surface known = alone[sphere] != 0 ? Surface::Alone : Surface::Unknown;
-    surface_[sphere] = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
+    SphereState& state = spheres_[sphere];
+    state.place = listed[sphere] != 0 ? places++ : NoPlace;
+    state.surface = order.source(sphere) < scene.receivers() ? known : Surface::Occluder;
   }
-  for (const unsigned sphere : watched)
+  if (!log_)
   {
-    watched_[placeOf_[sphere]] = 1;
+    std::vector<std::uint8_t> isWatched(places, 0);
+    for (const unsigned sphere : watched)
+    {
+      isWatched[spheres_[sphere].place] = 1;
+    }
+    stored_ = std::make_unique<StoredVisibility>(texels, std::move(isWatched));
   }
 }
 
 void VisibilityRecords::prefetch(unsigned sphere) const
 {
-  if (const TexelRims* rims = rims_[sphere].load(std::memory_order_relaxed))
+  if (const TexelRims* rims = spheres_[sphere].rims.load(std::memory_order_relaxed))
   {
     hwy::Prefetch(rims);
     hwy::Prefetch(reinterpret_cast<const char*>(rims) + 64);
-  }
-  if (!log_)
-  {
-    hwy::Prefetch(&placeOf_[sphere]);
   }
 }
 
@@ -98,10 +89,9 @@ bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask) const
 
 void VisibilityRecords::prefetchMasks(unsigned sphere, std::size_t axis) const
 {
-  if (const Record* record = log_ ? nullptr : recordOf(sphere))
+  if (stored_ && isListed(sphere))
   {
-    hwy::Prefetch(record);
-    hwy::Prefetch(reinterpret_cast<const GroupMask*>(record + 1) + axis * texels_.groups());
+    stored_->prefetch(spheres_[sphere].place, axis);
   }
 }
 
@@ -110,7 +100,7 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
   const TexelRims* known = rims(sphere);
   if (known == nullptr)
   {
-    Surface surface = surface_[sphere].load(std::memory_order_acquire);
+    Surface surface = spheres_[sphere].surface.load(std::memory_order_acquire);
     if (surface == Surface::Unknown)
     {
       surface = findSurface(sphere);
@@ -127,13 +117,13 @@ bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupM
 
 void VisibilityRecords::learn(unsigned sphere, Surface surface)
 {
-  if (surface_[sphere].load(std::memory_order_relaxed) != Surface::Unknown)
+  if (spheres_[sphere].surface.load(std::memory_order_relaxed) != Surface::Unknown)
   {
     return;
   }
   if (surface == Surface::Whole || surface == Surface::Buried)
   {
-    surface_[sphere].store(surface, std::memory_order_release);
+    spheres_[sphere].surface.store(surface, std::memory_order_release);
   }
   else if (surface == Surface::Cut && isListed(sphere))
   {
@@ -156,18 +146,10 @@ VisibilityRecords::Surface VisibilityRecords::findSurface(unsigned sphere)
     const TexelRims* known = nullptr;
     // Two threads may make the same at once; both are equal, and one is not used.
     const TexelRims* made = copyTo(memory, finder.list(overlaps.caps), texels_.groups());
-    rims_[sphere].compare_exchange_strong(known, made, std::memory_order_acq_rel);
+    spheres_[sphere].rims.compare_exchange_strong(known, made, std::memory_order_acq_rel);
   }
-  surface_[sphere].store(surface, std::memory_order_release);
+  spheres_[sphere].surface.store(surface, std::memory_order_release);
   return surface;
-}
-
-float* VisibilityRecords::makeSums(std::size_t count)
-{
-  const std::size_t size = count * texels_.slots();
-  auto* sums = memory_.allocate<float>(size);
-  std::fill(sums, sums + size, 0.0f);
-  return sums;
 }
 
 /// Most spheres that are looked at show points inside others alone; only for those that are seen it
@@ -182,23 +164,8 @@ void VisibilityRecords::tellTexelsApart(unsigned sphere)
   // Two threads may do the same at once; it does not matter whose result stays.
   thread_local RimFinder finder;
   std::pmr::memory_resource& memory = *memory_.ofThread();
-  rims_[sphere].store(
+  spheres_[sphere].rims.store(
     copyTo(memory, finder.find(texels_, *known), texels_.groups()), std::memory_order_release);
-}
-
-VisibilityRecords::Record& VisibilityRecords::findOrMakeRecord(unsigned place)
-{
-  std::atomic<Record*>& record = records_[place];
-  Record* known = record.load(std::memory_order_acquire);
-  if (known != nullptr)
-  {
-    return *known;
-  }
-  // Two threads may make the same at once; both are equal, and one is not used.
-  Record* made = new (memory_.allocate<Record>(1))
-    Record{ memory_.allocate<GroupMask>(AxesPerBlock * texels_.groups()), makeSums(1),
-      watched_[place] != 0 ? makeSums(ErrorSubsets) : nullptr };
-  return *(record.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 
 void VisibilityRecords::keep(
@@ -214,19 +181,7 @@ void VisibilityRecords::keep(
     log_->keep(sphere, axis, upward, facing, mask);
     return;
   }
-  Record& record = findOrMakeRecord(placeOf_[sphere]);
-  const std::size_t groups = texels_.groups();
-  GroupMask* kept = record.masks + axis * groups;
-  if (record.seen[axis] == 0)
-  {
-    record.seen[axis] = 1;
-    std::copy(mask, mask + groups, kept);
-    return;
-  }
-  for (std::size_t g = 0; g < groups; ++g)
-  {
-    kept[g] = static_cast<GroupMask>(kept[g] | mask[g]);
-  }
+  stored_->keep(spheres_[sphere].place, axis, mask);
 }
 
 void VisibilityRecords::addBlock(const std::vector<AxisWeights>& axes, std::size_t subset)
@@ -246,53 +201,7 @@ void VisibilityRecords::addBlock(const std::vector<AxisWeights>& axes, std::size
     log_->endBlock(axes, subset);
     return;
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, records_.size(), 64),
-    [&](const tbb::blocked_range<std::size_t>& places)
-    {
-      constexpr std::size_t ahead = 4;
-      for (std::size_t place = places.begin(); place != places.end(); ++place)
-      {
-        prefetchRecord(std::min(place + ahead, places.end() - 1));
-        if (Record* record = records_[place].load(std::memory_order_relaxed))
-        {
-          addTo(*record, axes, subset);
-        }
-      }
-    });
-}
-
-void VisibilityRecords::prefetchRecord(std::size_t place) const
-{
-  if (const Record* record = records_[place].load(std::memory_order_relaxed))
-  {
-    hwy::Prefetch(record);
-    hwy::Prefetch(record->sums);
-    hwy::Prefetch(record->masks);
-  }
-}
-
-void VisibilityRecords::addTo(
-  Record& record, const std::vector<AxisWeights>& axes, std::size_t subset) const
-{
-  const std::size_t groups = texels_.groups();
-  std::array<MaskedTerms, AxesPerBlock> terms;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < axes.size(); ++k)
-  {
-    if (record.seen[k] != 0)
-    {
-      record.seen[k] = 0;
-      terms[count++] = { record.masks + k * groups, axes[k].weight.data() };
-    }
-  }
-  if (count > 0)
-  {
-    addMasked(groups, terms.data(), count, record.sums);
-  }
-  if (count > 0 && record.subsets != nullptr)
-  {
-    addMasked(groups, terms.data(), count, record.subsets + subset * texels_.slots());
-  }
+  stored_->addBlock(axes, subset);
 }
 
 void VisibilityRecords::nextEpoch()
@@ -310,11 +219,6 @@ void VisibilityRecords::beginEpoch()
     std::vector<float>(TexelPatterns::Count * texels_.slots(), 0.0f) });
 }
 
-const VisibilityRecords::Record* VisibilityRecords::recordOf(unsigned sphere) const
-{
-  return isListed(sphere) ? records_[placeOf_[sphere]].load(std::memory_order_acquire) : nullptr;
-}
-
 const float* VisibilityRecords::sums(unsigned sphere) const
 {
   if (isAlone(sphere))
@@ -325,8 +229,7 @@ const float* VisibilityRecords::sums(unsigned sphere) const
   {
     return log_->sums(sphere);
   }
-  const Record* record = recordOf(sphere);
-  return record != nullptr ? record->sums : nullptr;
+  return isListed(sphere) ? stored_->sums(spheres_[sphere].place) : nullptr;
 }
 
 const float* VisibilityRecords::subsetSums(unsigned sphere) const
@@ -339,31 +242,31 @@ const float* VisibilityRecords::subsetSums(unsigned sphere) const
   {
     return log_->subsetSums(sphere);
   }
-  const Record* record = recordOf(sphere);
-  return record != nullptr ? record->subsets : nullptr;
+  return isListed(sphere) ? stored_->subsetSums(spheres_[sphere].place) : nullptr;
 }
 
 const TexelRims* VisibilityRecords::rims(unsigned sphere) const
 {
-  return rims_[sphere].load(std::memory_order_acquire);
+  return spheres_[sphere].rims.load(std::memory_order_acquire);
 }
 
 bool VisibilityRecords::isBuried(unsigned sphere) const
 {
-  return surface_[sphere].load(std::memory_order_acquire) == Surface::Buried;
+  return spheres_[sphere].surface.load(std::memory_order_acquire) == Surface::Buried;
 }
 
 bool VisibilityRecords::isAlone(unsigned sphere) const
 {
-  return surface_[sphere].load(std::memory_order_relaxed) == Surface::Alone;
+  return spheres_[sphere].surface.load(std::memory_order_relaxed) == Surface::Alone;
 }
 
 std::uint64_t VisibilityRecords::countListed(Surface surface) const
 {
   std::uint64_t count = 0;
-  for (unsigned sphere = 0; sphere < placeOf_.size(); ++sphere)
+  for (unsigned sphere = 0; sphere < spheres_.size(); ++sphere)
   {
-    count += isListed(sphere) && surface_[sphere].load(std::memory_order_relaxed) == surface;
+    count +=
+      isListed(sphere) && spheres_[sphere].surface.load(std::memory_order_relaxed) == surface;
   }
   return count;
 }

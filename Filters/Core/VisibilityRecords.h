@@ -5,22 +5,18 @@
 #include "LoggedVisibility.h"
 #include "OcclusionEstimator.h"
 #include "RecordMemory.h"
+#include "StoredVisibility.h"
 #include "SweepScene.h"
 #include "SweepTexels.h"
 #include "TexelRims.h"
 #include "TextureFormula.h"
 
-#include <array>
 #include <atomic>
 #include <memory>
 #include <vector>
 
 namespace po
 {
-/// Axes, of two opposite directions each, are swept in blocks of this many: in parallel, their
-/// masks kept, then summed in order.
-inline constexpr std::size_t AxesPerBlock = 8;
-
 /// Weights that an open texel gets: what all spheres have in common.
 struct OpenWeights
 {
@@ -36,8 +32,9 @@ struct SweepEpoch
 };
 
 /// The visibility of the listed spheres, in memory that is taken when one is first seen: at 16 x 16
-/// texels 1.25 KiB, some hundred bytes more where others overlap it, and 4 KiB more where it is
-/// watched. Out of core the visibility is in a file, and only what overlaps a sphere takes memory.
+/// texels 1 KiB, 0.25 for it and its neighbours, some hundred bytes more where others overlap it,
+/// and 4 KiB more where it is watched. Out of core the visibility is in a file, and only what
+/// overlaps a sphere takes memory.
 ///
 /// Threads may call clearInside() and keep() for different axes at once. All results are
 /// independent of their order. Spheres are named by their index in the SweepScene.
@@ -74,8 +71,8 @@ public:
   [[nodiscard]] const OpenWeights& openWeights() const { return open_; }
 
   /// Of the SweepScene.
-  [[nodiscard]] std::size_t spheres() const { return placeOf_.size(); }
-  [[nodiscard]] bool isListed(unsigned sphere) const { return placeOf_[sphere] != NoPlace; }
+  [[nodiscard]] std::size_t spheres() const { return spheres_.size(); }
+  [[nodiscard]] bool isListed(unsigned sphere) const { return spheres_[sphere].place != NoPlace; }
 
   /// Fetches what clearCovered() needs of a sphere, if it has been seen, while other work goes on.
   void prefetch(unsigned sphere) const;
@@ -94,7 +91,7 @@ public:
   /// For a sphere that is not known to show anything it is not found out.
   [[nodiscard]] Surface surface(unsigned sphere) const
   {
-    return surface_[sphere].load(std::memory_order_relaxed);
+    return spheres_[sphere].surface.load(std::memory_order_relaxed);
   }
   /// Takes what another process has found out. What cuts a sphere is found again, if it is listed
   /// here, or else when that is needed. Threads may call this at once.
@@ -134,41 +131,31 @@ private:
   /// Points of a texel that rims cross, together: 512.
   static constexpr std::size_t MostEpochs = 16;
 
-  /// In memory: a sphere that was seen. Masks and marks are kept by axis: two axes never write to
-  /// the same byte.
-  struct alignas(64) Record
+  /// What is looked at together is side by side.
+  struct SphereState
   {
-    GroupMask* masks;                              ///< [AxesPerBlock][groups] where seen
-    float* sums;                                   ///< [slots]
-    float* subsets;                                ///< [ErrorSubsets][slots] where watched
-    std::array<std::uint8_t, AxesPerBlock> seen{}; ///< along the axes of this block
+    std::atomic<const TexelRims*> rims{ nullptr }; ///< of a cut one
+    unsigned place = NoPlace;                      ///< among the listed ones
+    std::atomic<Surface> surface{ Surface::Unknown };
   };
 
   void beginEpoch();
   Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
-  [[nodiscard]] float* makeSums(std::size_t count);
   void tellTexelsApart(unsigned sphere);
-  void prefetchRecord(std::size_t place) const;
-  Record& findOrMakeRecord(unsigned place);
-  void addTo(Record& record, const std::vector<AxisWeights>& axes, std::size_t subset) const;
   [[nodiscard]] bool isAlone(unsigned sphere) const;
-  [[nodiscard]] const Record* recordOf(unsigned sphere) const;
 
   const BakeScene& scene_;
   const SweepScene& order_;
   const SweepTexels& texels_;
   std::uint64_t seed_;
-  std::vector<unsigned> placeOf_; ///< by sphere: its place among the listed ones, or NoPlace
+  std::vector<SphereState> spheres_;
   std::vector<SweepEpoch> epochs_;
   std::size_t epoch_ = 0; ///< the present one
   OpenWeights open_;
   RecordMemory memory_;
-  std::vector<std::atomic<Surface>> surface_;       ///< by sphere
-  std::vector<std::atomic<const TexelRims*>> rims_; ///< by sphere: of cut ones
-  std::vector<std::atomic<Record*>> records_;       ///< by place; empty out of core
-  std::vector<std::uint8_t> watched_;               ///< flags by place
-  std::unique_ptr<LoggedVisibility> log_;           ///< null: in records
+  std::unique_ptr<StoredVisibility> stored_; ///< null: in the log
+  std::unique_ptr<LoggedVisibility> log_;    ///< null: stored
 };
 }
 
