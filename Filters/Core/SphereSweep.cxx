@@ -320,7 +320,8 @@ void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const
   {
     const auto shiftX = static_cast<float>(random.uniform());
     const auto shiftY = static_cast<float>(random.uniform());
-    work.offsetMasks[i].build(job.directions[i].facing, shiftX, shiftY);
+    const auto shiftZ = static_cast<float>(random.uniform());
+    work.offsetMasks[i].build(job.directions[i].facing, shiftX, shiftY, shiftZ);
     job.directions[i].offsetMasks = &work.offsetMasks[i];
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TileSweep.h"
 
+#include "OffsetLookup.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -134,7 +136,7 @@ bool TileSweep::passes(
     return hideBehindWithin(facing, occluders, receiver, direction.distance, mask_.data());
   }
   return direction.offsetMasks != nullptr
-    ? hideBehindEqual(facing, *direction.offsetMasks, occluders, receiver, mask_.data())
+    ? hideBehindEqual(*direction.offsetMasks, occluders, receiver, mask_.data())
     : hideBehind(facing, occluders, receiver, mask_.data());
 }
 }
