@@ -74,13 +74,24 @@ struct Query
   const SphereSet* spheres;
   unsigned id;
   const SphereBoxes* boxes; ///< that are being searched
+  Vec3f center;             ///< relative to their brick
+  float radius;             ///< around it
 
-  /// Calls action(id) for the other spheres of a box.
+  /// Calls action(id) for the other spheres of a box that come within the radius, and maybe for
+  /// some that just do not.
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
     for (const unsigned place : boxes->in(arguments->primID))
     {
+      // Most are too far away: told in floats.
+      const Sphere& sphere = boxes->brick->spheres[place];
+      const Vec3f offset = sphere.center() - center;
+      const float reach = (radius + sphere.radius) * (1 + 1e-5f);
+      if (dot(offset, offset) > reach * reach)
+      {
+        continue;
+      }
       const unsigned other = boxes->brick->id(place);
       if (other != id)
       {
@@ -268,14 +279,16 @@ void OverlapFinder::search(
       continue;
     }
     const Vec3f place = (center - brick.origin).as<float>();
-    // Rounding must not lose a box that just comes within the radius.
+    // Rounding must not lose a box or a sphere that just comes within the radius.
     const float size = radius + std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
+    query.center = place;
+    query.radius = radius + 4 * std::numeric_limits<float>::epsilon() * size;
     RTCPointQuery point;
     point.x = place.x;
     point.y = place.y;
     point.z = place.z;
     point.time = 0;
-    point.radius = radius + 4 * std::numeric_limits<float>::epsilon() * size;
+    point.radius = query.radius;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(scenes_[i].get(), &point, &context, visit, &query);

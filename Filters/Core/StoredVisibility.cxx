@@ -12,10 +12,12 @@
 
 namespace po
 {
-StoredVisibility::StoredVisibility(const SweepTexels& texels, std::vector<std::uint8_t> watched)
+StoredVisibility::StoredVisibility(
+  const SweepTexels& texels, std::vector<std::uint8_t> watched, RecordMemory& memory)
   : groups_(texels.groups())
   , slots_(texels.slots())
   , watched_(std::move(watched))
+  , memory_(memory)
   , chunks_((watched_.size() + ChunkPlaces - 1) / ChunkPlaces)
 {
 }

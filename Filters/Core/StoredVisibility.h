@@ -23,7 +23,9 @@ class StoredVisibility
 {
 public:
   /// @param watched [places] flags of those that have sums by subset too
-  StoredVisibility(const SweepTexels& texels, std::vector<std::uint8_t> watched);
+  /// @param memory that it takes
+  StoredVisibility(
+    const SweepTexels& texels, std::vector<std::uint8_t> watched, RecordMemory& memory);
 
   /// Fetches what keep() needs, if it is there, while other work goes on.
   void prefetch(std::size_t place, std::size_t axis) const;
@@ -62,7 +64,7 @@ private:
   std::size_t groups_;
   std::size_t slots_;
   std::vector<std::uint8_t> watched_; ///< flags by place
-  RecordMemory memory_;
+  RecordMemory& memory_;
   std::vector<std::atomic<Chunk*>> chunks_; ///< by place / ChunkPlaces
 };
 }

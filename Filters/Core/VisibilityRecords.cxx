@@ -55,7 +55,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
     {
       isWatched[spheres_[sphere].place] = 1;
     }
-    stored_ = std::make_unique<StoredVisibility>(texels, std::move(isWatched));
+    stored_ = std::make_unique<StoredVisibility>(texels, std::move(isWatched), memory_);
   }
 }
 
