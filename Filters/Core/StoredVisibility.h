@@ -44,13 +44,15 @@ public:
 private:
   static constexpr std::size_t ChunkPlaces = 16;
 
-  /// Neighbours of which one was seen. Masks and marks are kept by axis: two axes never write to
-  /// the same byte.
+  /// Neighbours of which one was seen; their masks [AxesPerBlock][ChunkPlaces][groups] follow in
+  /// memory, so that no pointer to them must be waited for. Masks and marks are kept by axis: two
+  /// axes never write to the same byte.
   struct alignas(64) Chunk
   {
     std::array<std::array<std::uint8_t, ChunkPlaces>, AxesPerBlock> seen{}; ///< in this block
     std::array<float*, ChunkPlaces> sums{}; ///< [slots], then [ErrorSubsets][slots] where watched
-    GroupMask* masks;                       ///< [AxesPerBlock][ChunkPlaces][groups] where seen
+
+    [[nodiscard]] GroupMask* masks() { return reinterpret_cast<GroupMask*>(this + 1); }
   };
 
   [[nodiscard]] std::size_t maskAt(std::size_t place, std::size_t axis) const

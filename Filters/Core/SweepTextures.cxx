@@ -4,6 +4,8 @@
 #include "Constants.h"
 #include "MaskedSums.h"
 
+#include <hwy/cache_control.h>
+
 #include <utility>
 
 namespace po
@@ -36,6 +38,16 @@ void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
     formula_.fill(cut.surface, sums, cut.weights.data(), values, shares);
   }
   smoothing_.apply(values, shares);
+}
+
+void SweepTextures::prefetch(unsigned sphere) const
+{
+  constexpr std::size_t perLine = 16; // floats
+  const float* sums = records_.sums(sphere);
+  for (std::size_t slot = 0; sums != nullptr && slot < records_.texels().slots(); slot += perLine)
+  {
+    hwy::Prefetch(sums + slot);
+  }
 }
 
 /// Points of past epochs count by their weights, the present ones for the surface too.

@@ -23,6 +23,9 @@ public:
   /// shares are not looked for: values 0, shares 1.
   void fill(unsigned sphere, float* values, float* shares) const;
 
+  /// Fetches what fill() needs of a sphere, while other work goes on.
+  void prefetch(unsigned sphere) const;
+
   /// Squared standard errors of a watched sphere's texels.
   [[nodiscard]] SquaredError squaredError(unsigned sphere) const;
 

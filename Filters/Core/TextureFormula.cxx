@@ -106,12 +106,9 @@ void TextureFormula::addIrradiance(
 
 void TextureFormula::cut(const TexelExposure& exposure, OutsideSurface& surface) const
 {
-  surface = whole_;
-  for (std::size_t slot = 0; slot < surface.shares.size(); ++slot)
-  {
-    const bool outside = (exposure.bits[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
-    surface.shares[slot] = outside ? 1.0f : 0.0f;
-  }
+  surface.irradiance = whole_.irradiance;
+  surface.shares.assign(whole_.shares.size(), 0.0f);
+  addMasked(groups_, exposure.ofPattern(0, groups_), whole_.shares.data(), surface.shares.data());
   for (const std::uint32_t group : exposure.rimGroups)
   {
     const std::size_t first = group * GroupSize;

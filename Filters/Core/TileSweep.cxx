@@ -20,12 +20,18 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
   SweepCounters& counters = counters_[direction.full ? 1 : 0];
   std::uint64_t visited = 0;
   const std::size_t slabs = order.slabs();
+  const auto slabAt = [&](std::size_t i)
+  { return order.slab(direction.upward ? slabs - 1 - i : i); };
+  DepthOrder::Slab next = slabAt(0);
   for (std::size_t i = 0; i < slabs; ++i)
   {
-    const DepthOrder::Slab slab = order.slab(direction.upward ? slabs - 1 - i : i);
-    const auto count = static_cast<std::size_t>(slab.last - slab.first);
+    const DepthOrder::Slab slab = next;
+    next = slabAt(std::min(i + 1, slabs - 1));
     std::for_each(
-      slab.first, slab.last, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
+      next.first, next.last, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
+    std::for_each(slab.first, slab.last,
+      [this](const TileSphere& s) { records_.prefetchRims(s.sphere.index); });
+    const auto count = static_cast<std::size_t>(slab.last - slab.first);
     for (std::size_t k = 0; k < count; ++k)
     {
       const TileSphere& sphere =

@@ -5,8 +5,6 @@
 #include "RimFinder.h"
 #include "TexelCaps.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -59,7 +57,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   }
 }
 
-void VisibilityRecords::prefetch(unsigned sphere) const
+void VisibilityRecords::prefetchRims(unsigned sphere) const
 {
   if (const TexelRims* rims = spheres_[sphere].rims.load(std::memory_order_relaxed))
   {

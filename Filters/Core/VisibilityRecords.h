@@ -11,6 +11,8 @@
 #include "TexelRims.h"
 #include "TextureFormula.h"
 
+#include <hwy/cache_control.h>
+
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -74,8 +76,11 @@ public:
   [[nodiscard]] std::size_t spheres() const { return spheres_.size(); }
   [[nodiscard]] bool isListed(unsigned sphere) const { return spheres_[sphere].place != NoPlace; }
 
-  /// Fetches what clearCovered() needs of a sphere, if it has been seen, while other work goes on.
-  void prefetch(unsigned sphere) const;
+  /// Fetches, while other work goes on, what prefetchRims() needs of a sphere.
+  void prefetch(unsigned sphere) const { hwy::Prefetch(&spheres_[sphere]); }
+
+  /// Fetches what clearCovered() needs, if the sphere has been looked at.
+  void prefetchRims(unsigned sphere) const;
 
   /// Clears the bits of texels that are wholly inside, if it is known already what overlaps the
   /// sphere; false if none is left. Fetches what clearInside() needs then.
