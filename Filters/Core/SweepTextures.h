@@ -36,11 +36,11 @@ private:
     OutsideSurface surface;
     std::vector<float> weights; ///< [slots] of its points that are outside: what open texels sum to
     RimFinder finder;
-    TexelExposure exposure;
     std::vector<float> rims; ///< [rimGroups][GroupSize] of weights
   };
 
   void lookAt(const TexelRims& known, CutSurface& cut) const;
+  void lookAtRim(const TexelRims& rims, std::size_t rim, CutSurface& cut) const;
   void weigh(const TexelRims& rims, CutSurface& cut) const;
   [[nodiscard]] std::vector<float> subsetWeights(const CutSurface& cut) const;
 
