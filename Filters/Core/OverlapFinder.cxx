@@ -4,6 +4,7 @@
 #include "BrickOrder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -23,6 +24,7 @@ struct SphereBoxes
     const unsigned* last;
     [[nodiscard]] const unsigned* begin() const { return first; }
     [[nodiscard]] const unsigned* end() const { return last; }
+    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(last - first); }
   };
 
   const Brick* brick;
@@ -82,18 +84,20 @@ struct Query
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
-    for (const unsigned place : boxes->in(arguments->primID))
+    // Most are too far away: told in floats, for all at once, since their memory is far apart.
+    const SphereBoxes::Places places = boxes->in(arguments->primID);
+    std::array<bool, SphereBoxes::Spheres> isNear{};
+    for (std::size_t i = 0; i < places.size(); ++i)
     {
-      // Most are too far away: told in floats.
-      const Sphere& sphere = boxes->brick->spheres[place];
+      const Sphere& sphere = boxes->brick->spheres[places.first[i]];
       const Vec3f offset = sphere.center() - center;
       const float reach = (radius + sphere.radius) * (1 + 1e-5f);
-      if (dot(offset, offset) > reach * reach)
-      {
-        continue;
-      }
-      const unsigned other = boxes->brick->id(place);
-      if (other != id)
+      isNear[i] = dot(offset, offset) <= reach * reach;
+    }
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const unsigned other = boxes->brick->id(places.first[i]);
+      if (isNear[i] && other != id)
       {
         action(other);
       }
