@@ -9,7 +9,10 @@
 #include "SharedSpheres.h"
 #include "vtkSphereAmbientOcclusion.h"
 
+#include "vtkPointSet.h"
+
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -19,7 +22,7 @@ namespace po
 {
 namespace
 {
-void readParticles(BakeInput& input, const RadiusSettings& radii,
+SphereCloud readParticles(BakeInput& input, const RadiusSettings& radii,
   const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
 {
   std::string error;
@@ -28,8 +31,8 @@ void readParticles(BakeInput& input, const RadiusSettings& radii,
   {
     throw std::invalid_argument(error);
   }
-  input.own = std::move(particles->cloud);
   input.radiusUsed = describe(radii, particles->radii);
+  return std::move(particles->cloud);
 }
 
 /// Takes the spheres that are hidden out of a cloud.
@@ -107,15 +110,39 @@ std::vector<std::uint64_t> idsByPlace(const std::vector<std::uint64_t>& idOfPoin
   return ids;
 }
 
-/// Exchanges particles and occluders with the other processes.
-void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint64_t>& idOfPoint,
-  const BakeSettings& settings, const ProcessGroup& group)
+/// Tells which receivers the points are.
+/// @param places of the particles in the cloud of the task, among which the receivers are
+void findPoints(BakeInput& input, const SphereCloud& own, const std::vector<unsigned>& places,
+  const std::vector<vtkPointSet*>& blocks)
 {
-  SphereCloud& own = input.own;
+  std::size_t points = 0;
+  for (vtkPointSet* block : blocks)
+  {
+    points += static_cast<std::size_t>(block->GetNumberOfPoints());
+  }
+  input.points.assign(points, NoReceiver);
+  input.ghosts.assign(own.ghosts.empty() ? 0 : points, 0);
+  const std::vector<unsigned>& receivers = input.task.receivers;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const auto point = static_cast<std::size_t>(own.sourceIds[i]);
+    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), places[i]);
+    input.points[point] = static_cast<std::uint32_t>(receiver - receivers.begin());
+    if (!own.ghosts.empty())
+    {
+      input.ghosts[point] = own.ghosts[i];
+    }
+  }
+}
+
+/// Exchanges particles and occluders with the other processes.
+void makeTask(BakeInput& input, SphereCloud own, Occluders occluders,
+  const std::vector<std::uint64_t>& idOfPoint, const BakeSettings& settings,
+  const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
+{
   const Neighbourhood neighbourhood(own.spheres, own.toLocalReach(settings.maximumDistance), group);
-  SharedSpheres shared = shareSpheres(own.spheres, own.ghosts, neighbourhood, group, own.centers);
-  input.places = std::move(shared.places);
-  own.spheres = {}; // the task has them, in another order
+  SharedSpheres shared =
+    shareSpheres(std::move(own.spheres), own.ghosts, neighbourhood, group, own.centers);
   own.centers = {};
 
   BakeTask& task = input.task;
@@ -123,10 +150,11 @@ void makeTask(BakeInput& input, Occluders occluders, const std::vector<std::uint
   task.cloud.scale = own.scale;
   task.cloud.spheres = std::move(shared.spheres);
   task.cloud.centers = std::move(shared.centers);
-  task.cloud.ids = idsByPlace(idOfPoint, own, input.places, task.cloud.spheres.size());
-  task.receivers = distinct(input.places);
+  task.cloud.ids = idsByPlace(idOfPoint, own, shared.places, task.cloud.spheres.size());
+  task.receivers = distinct(shared.places);
   task.occluders = shareOccluders(std::move(occluders), neighbourhood, group);
   task.settings = settings;
+  findPoints(input, own, shared.places, blocks);
 }
 }
 
@@ -134,12 +162,12 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
   const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluders, const ProcessGroup& group)
 {
   BakeInput input;
-  readParticles(input, radiiOf(filter), blocks, group);
+  SphereCloud own = readParticles(input, radiiOf(filter), blocks, group);
   const std::vector<std::uint64_t> idOfPoint = readIds(blocks, idArrayOf(filter), group);
-  OccluderInput others = readOccluders(occluders, radiiOf(filter), input.own, group);
+  OccluderInput others = readOccluders(occluders, radiiOf(filter), own, group);
 
-  const std::uint64_t cropped = cropParticles(input.own, cropOf(filter), blocks, group);
-  const RejectedParticles rejected = input.own.rejected.summed(group);
+  const std::uint64_t cropped = cropParticles(own, cropOf(filter), blocks, group);
+  const RejectedParticles rejected = own.rejected.summed(group);
   input.report.leftOut = rejected.total() + cropped;
   input.report.occluderSpheres = group.sum(std::uint64_t(others.occluders.spheres.size()));
   input.report.occluderTriangles = group.sum(std::uint64_t(others.occluders.mesh.triangles.size()));
@@ -151,7 +179,7 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
       input.warnings.insert(input.warnings.begin(), describe(rejected));
     }
   }
-  makeTask(input, std::move(others.occluders), idOfPoint, settings, group);
+  makeTask(input, std::move(own), std::move(others.occluders), idOfPoint, settings, blocks, group);
   input.task.targetError = filter.GetTargetError();
   input.task.outOfCore = filter.GetOutOfCore();
   return input;

@@ -5,7 +5,9 @@
 // From the inputs of the filter, on all processes, to the task of a bake.
 
 #include "BakeMethods.h"
+#include "BakedData.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,8 @@ namespace po
 /// What was read of the inputs.
 struct BakeInput
 {
-  SphereCloud own;              ///< particles of this process
-  std::vector<unsigned> places; ///< of each of them in the cloud of the task
+  PointReceivers points; ///< the receivers of the task that the points of this process are
+  std::vector<std::uint8_t> ghosts; ///< flags by point, or empty: see SphereCloud
   BakeTask task;
   BakeReport report;                 ///< the numbers that are known without a bake
   std::string radiusUsed;            ///< where the radii came from, in words

@@ -4,8 +4,10 @@
 #include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "FreeMemory.h"
+#include "HeapMemory.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
+#include "SweepOrder.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <algorithm>
@@ -56,7 +58,13 @@ public:
   BakeResult bySweep()
   {
     const SweepEstimator sweep = sweepFor(task_);
-    BakeResult result = bake(sweep);
+    requireMemory(memoryOf(task_, sweep), task_.receivers.size());
+    std::vector<unsigned> particles = task_.receivers;
+    if (task_.occluders.spheres.empty())
+    {
+      sortForSweep(task_.cloud, particles);
+    }
+    BakeResult result = bake(sweep, particles);
     finish(result, sweep.report().directions, sweep.report().estimatedError, task_.targetError > 0);
     report_.refined = result.aborted ? 0 : group_.sum(std::uint64_t(sweep.report().refined));
     return result;
@@ -67,7 +75,8 @@ public:
     EmbreeOptions options;
     options.targetError = task_.targetError;
     const EmbreeEstimator embree(options);
-    BakeResult result = bake(embree);
+    requireMemory(memoryOf(task_, embree), task_.receivers.size());
+    BakeResult result = bake(embree, task_.receivers);
     finish(result, embree.report().directions, embree.report().estimatedError, false);
     return result;
   }
@@ -76,7 +85,7 @@ public:
   {
     const ReferenceEstimator reference;
     requireMemory(memoryOf(task_, reference), task_.receivers.size());
-    const BakeScene scene(task_.cloud, task_.occluders, group_);
+    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
     double error = 0;
     if (task_.targetError > 0)
     {
@@ -91,11 +100,11 @@ public:
   }
 
 private:
-  BakeResult bake(const OcclusionEstimator& estimator)
+  BakeResult bake(const OcclusionEstimator& estimator, const std::vector<unsigned>& particles)
   {
-    requireMemory(memoryOf(task_, estimator), task_.receivers.size());
-    return bakeOcclusion(BakeScene(task_.cloud, task_.occluders, group_), task_.receivers,
-      task_.settings, estimator, progress_);
+    const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
+    returnFreeMemory(); // of what has read and sorted the particles
+    return bakeOcclusion(scene, particles, task_.settings, estimator, progress_);
   }
 
   /// @param errorIsOfAll whether the estimator has found it over all processes
@@ -127,23 +136,6 @@ std::vector<unsigned> distinct(std::vector<unsigned> numbers)
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   return numbers;
-}
-
-BakeResult inOrderOf(
-  const std::vector<unsigned>& places, const std::vector<unsigned>& receivers, BakeResult result)
-{
-  const std::vector<std::int32_t> rows = std::move(result.rowOf);
-  const std::vector<float> means = std::move(result.mean);
-  result.rowOf.clear();
-  result.mean.clear();
-  for (const unsigned place : places)
-  {
-    const auto receiver = std::lower_bound(receivers.begin(), receivers.end(), place);
-    const auto index = static_cast<std::size_t>(receiver - receivers.begin());
-    result.rowOf.push_back(rows[index]);
-    result.mean.push_back(means[index]);
-  }
-  return result;
 }
 
 int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)

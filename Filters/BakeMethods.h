@@ -43,16 +43,13 @@ struct BakeTask
 /// The numbers in ascending order, each once.
 [[nodiscard]] std::vector<unsigned> distinct(std::vector<unsigned> numbers);
 
-/// From the order of `receivers`, which is ascending, to that of `places`, which are among them.
-[[nodiscard]] BakeResult inOrderOf(
-  const std::vector<unsigned>& places, const std::vector<unsigned>& receivers, BakeResult result);
-
 /// The method that Automatic stands for: the same on all processes.
 /// Throws std::invalid_argument for a method that cannot bake the task.
 [[nodiscard]] int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group);
 
 /// Bakes the receivers and fills the report: method, directions, error, samples, refined, and the
-/// counters. With Reference and a target error settings.samplesPerTexel becomes what reaches it.
+/// counters. With Reference and a target error settings.samplesPerTexel becomes what reaches it. Of
+/// the task's particles the frame and the list of receivers stay.
 /// Throws like bakeOcclusion, and std::runtime_error where memory would not do.
 [[nodiscard]] BakeResult bakeByMethod(
   int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report);

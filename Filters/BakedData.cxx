@@ -55,35 +55,10 @@ vtkSmartPointer<vtkPolyData> appendBlocks(const std::vector<vtkPointSet*>& block
   return append->GetOutput();
 }
 
-/// Per-particle results in the order of the input points.
-struct PointResults
-{
-  std::vector<std::int32_t> rowOf;
-  std::vector<float> mean;
-};
-
-PointResults scatter(const SphereCloud& cloud, const BakeResult& result, std::size_t points)
-{
-  PointResults all{ std::vector<std::int32_t>(points, -1), std::vector<float>(points, 0.0f) };
-  for (std::size_t i = 0; i < cloud.sourceIds.size(); ++i)
-  {
-    const auto point = static_cast<std::size_t>(cloud.sourceIds[i]);
-    all.rowOf[point] = result.rowOf[i];
-    all.mean[point] = result.mean[i];
-  }
-  return all;
-}
-
 /// The textures of a table that a block uses, one after the other in the order of their first use.
 class TextureSelection
 {
 public:
-  /// Tuples of the table that belong together.
-  struct Span
-  {
-    std::size_t first, count;
-  };
-
   explicit TextureSelection(const EncodedTable& table)
     : table_(table)
     , newRow_(static_cast<std::size_t>(table.rows), -1)
@@ -100,21 +75,24 @@ public:
     if (target < 0)
     {
       target = static_cast<std::int32_t>(tuples_);
-      spans_.push_back({ static_cast<std::size_t>(row), table_.tuplesAt(row) });
-      tuples_ += spans_.back().count;
+      firsts_.push_back(row);
+      tuples_ += table_.tuplesAt(row);
     }
     return target;
   }
 
-  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
+  /// The rows at which its textures begin, in order.
+  [[nodiscard]] const std::vector<std::int32_t>& firsts() const { return firsts_; }
+  /// How many tuples of the table such a texture has.
+  [[nodiscard]] std::size_t tuplesAt(std::int32_t row) const { return table_.tuplesAt(row); }
   /// Of each row of the table: its place in the selection, or -1.
-  [[nodiscard]] const std::vector<std::int32_t>& places() const { return newRow_; }
+  [[nodiscard]] std::vector<std::int32_t> takePlaces() { return std::move(newRow_); }
   [[nodiscard]] std::size_t tuples() const { return tuples_; }
 
 private:
   const EncodedTable& table_;
   std::vector<std::int32_t> newRow_;
-  std::vector<Span> spans_;
+  std::vector<std::int32_t> firsts_;
   std::size_t tuples_ = 0;
 };
 
@@ -127,9 +105,10 @@ vtkSmartPointer<vtkDataArray> copyTextures(
   array->SetNumberOfComponents(static_cast<int>(width));
   array->SetNumberOfTuples(static_cast<vtkIdType>(selection.tuples()));
   Value* target = array->GetPointer(0);
-  for (const auto& [first, count] : selection.spans())
+  for (const std::int32_t first : selection.firsts())
   {
-    target = std::copy_n(values.data() + first * width, count * width, target);
+    target = std::copy_n(values.data() + static_cast<std::size_t>(first) * width,
+      selection.tuplesAt(first) * width, target);
   }
   return array;
 }
@@ -177,19 +156,19 @@ vtkSmartPointer<vtkDataArray> adopt(std::vector<Value>& values, std::size_t widt
 
 template <typename Array, typename Value>
 vtkSmartPointer<vtkDataArray> takeTextures(
-  std::vector<Value>& values, std::size_t width, const TextureSelection& selection)
+  std::vector<Value>& values, std::size_t width, TextureSelection& selection)
 {
   if (values.empty() || selection.tuples() * width != values.size())
   {
     return copyTextures<Array>(values, width, selection);
   }
-  permute(values, width, selection.places());
+  permute(values, width, selection.takePlaces());
   return adopt<Array>(values, width);
 }
 
 /// @param isLast no other block needs the table
 vtkSmartPointer<vtkDataArray> makeTable(
-  EncodedTable& table, const TextureSelection& selection, bool isLast)
+  EncodedTable& table, TextureSelection& selection, bool isLast)
 {
   const std::size_t width = table.valuesPerTuple();
   const bool take = isLast && !table.isPacked();
@@ -202,27 +181,29 @@ vtkSmartPointer<vtkDataArray> makeTable(
               : copyTextures<vtkFloatArray>(table.floats, width, selection);
 }
 
-void attachToBlock(vtkPointSet* block, const PointResults& all, std::size_t offset,
-  EncodedTable& table, bool isLast, const OcclusionParameters& parameters)
+/// @param receivers of the block's points
+void attachToBlock(vtkPointSet* block, const std::uint32_t* receivers, BakeResult& result,
+  bool isLast, const OcclusionParameters& parameters)
 {
   const vtkIdType points = block->GetNumberOfPoints();
   vtkNew<vtkFloatArray> mean;
   mean->SetName(OcclusionArray);
   mean->SetNumberOfTuples(points);
-  std::copy_n(all.mean.data() + offset, points, mean->GetPointer(0));
+  std::transform(receivers, receivers + points, mean->GetPointer(0),
+    [&](std::uint32_t i) { return i == NoReceiver ? 0.0f : result.mean[i]; });
 
-  TextureSelection selection(table);
+  TextureSelection selection(result.table);
   vtkNew<vtkIntArray> index;
   index->SetName(TextureIndexArray);
   index->SetNumberOfTuples(points);
-  std::transform(all.rowOf.data() + offset, all.rowOf.data() + offset + points,
-    index->GetPointer(0), [&](std::int32_t row) { return selection.use(row); });
+  std::transform(receivers, receivers + points, index->GetPointer(0),
+    [&](std::uint32_t i) { return i == NoReceiver ? -1 : selection.use(result.rowOf[i]); });
 
   block->GetPointData()->AddArray(mean);
   block->GetPointData()->AddArray(index);
-  block->GetFieldData()->AddArray(makeTable(table, selection, isLast));
+  block->GetFieldData()->AddArray(makeTable(result.table, selection, isLast));
   block->GetFieldData()->RemoveArray(TextureBasisArray); // of an earlier bake
-  if (const auto basis = basisArrayOf(table.packed))
+  if (const auto basis = basisArrayOf(result.table.packed))
   {
     block->GetFieldData()->AddArray(basis);
   }
@@ -260,22 +241,16 @@ std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
   return readSphereCloud(*all, settings, error, frame, group);
 }
 
-void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& cloud,
+void attachBake(const std::vector<vtkPointSet*>& blocks, const PointReceivers& receivers,
   BakeResult&& result, const OcclusionParameters& parameters)
 {
-  std::size_t points = 0;
-  for (vtkPointSet* block : blocks)
-  {
-    points += static_cast<std::size_t>(block->GetNumberOfPoints());
-  }
-  const PointResults all = scatter(cloud, result, points);
   OcclusionParameters described = parameters;
   describeFormat(result.table.packed, described);
-  std::size_t offset = 0;
+  const std::uint32_t* next = receivers.data();
   for (vtkPointSet* block : blocks)
   {
-    attachToBlock(block, all, offset, result.table, block == blocks.back(), described);
-    offset += static_cast<std::size_t>(block->GetNumberOfPoints());
+    attachToBlock(block, next, result, block == blocks.back(), described);
+    next += block->GetNumberOfPoints();
   }
 }
 }

@@ -10,6 +10,7 @@
 
 #include "vtkSmartPointer.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,10 +30,15 @@ namespace po
   const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
   const ProcessGroup& group);
 
+/// Of each point, through the blocks in order, its particle's number among those of a BakeResult.
+using PointReceivers = std::vector<std::uint32_t>;
+/// For points that are no particles, or were left out.
+inline constexpr std::uint32_t NoReceiver = ~std::uint32_t(0);
+
 /// Adds the arrays of the data contract to each block. A block gets the rows of the table that its
 /// particles use; particles that were left out get row -1 and visibility 0.
-/// @param result in the order of the cloud's spheres; a single block takes over its memory
-void attachBake(const std::vector<vtkPointSet*>& blocks, const SphereCloud& cloud,
+/// @param result a single block takes over its memory
+void attachBake(const std::vector<vtkPointSet*>& blocks, const PointReceivers& receivers,
   BakeResult&& result, const OcclusionParameters& parameters);
 }
 

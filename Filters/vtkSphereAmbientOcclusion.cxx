@@ -6,6 +6,7 @@
 #include "BakeParameters.h"
 #include "BakedData.h"
 #include "ControllerGroup.h"
+#include "HeapMemory.h"
 
 #include "vtkDataObject.h"
 #include "vtkErrorCode.h"
@@ -71,8 +72,8 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
     group.stop(po::WorkState::Aborted);
     throw po::WorkStopped(po::WorkState::Aborted, "");
   }
-  result = po::inOrderOf(input.places, input.task.receivers, std::move(result));
-  this->CountParticles(input.own, result, settings, group);
+  po::returnFreeMemory();
+  this->CountParticles(input, result, settings, group);
   const double error = this->Report.estimatedError;
   if (self->TargetError > 0 && error > self->TargetError && group.rank() == 0)
   {
@@ -83,22 +84,24 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   group.agree(); // nobody was aborted: from here on it is all or nothing
   announce(self, 1, "Storing textures");
   po::attachBake(
-    blocks, input.own, std::move(result), po::describeBake(*self, settings, this->Report));
+    blocks, input.points, std::move(result), po::describeBake(*self, settings, this->Report));
   group.agree();
 }
 
 /// Ghosts were baked, since they are drawn, but count where they are at home.
-void vtkSphereAmbientOcclusion::Internals::CountParticles(const po::SphereCloud& own,
+void vtkSphereAmbientOcclusion::Internals::CountParticles(const po::BakeInput& input,
   const po::BakeResult& result, const po::BakeSettings& settings, const po::ProcessGroup& group)
 {
   std::uint64_t owned = 0;
   std::uint64_t dark = 0;
-  const std::vector<std::uint8_t>& ghosts = own.ghosts;
-  for (std::size_t i = 0; i < result.mean.size(); ++i)
+  for (std::size_t point = 0; point < input.points.size(); ++point)
   {
-    const bool isOwned = ghosts.empty() || ghosts[i] == 0;
-    owned += isOwned;
-    dark += isOwned && result.mean[i] == 0;
+    const bool isGhost = !input.ghosts.empty() && input.ghosts[point] != 0;
+    if (input.points[point] != po::NoReceiver && !isGhost)
+    {
+      ++owned;
+      dark += result.mean[input.points[point]] == 0 ? 1 : 0;
+    }
   }
   const auto side = static_cast<std::uint64_t>(settings.textureResolution);
   this->Report.counters.particles = group.sum(owned);

@@ -11,6 +11,11 @@
 class vtkDataObject;
 class vtkPointSet;
 
+namespace po
+{
+struct BakeInput;
+}
+
 /// One execution.
 struct vtkSphereAmbientOcclusion::Internals
 {
@@ -23,7 +28,7 @@ struct vtkSphereAmbientOcclusion::Internals
   void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,
     const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluderData);
 
-  void CountParticles(const po::SphereCloud& own, const po::BakeResult& result,
+  void CountParticles(const po::BakeInput& input, const po::BakeResult& result,
     const po::BakeSettings& settings, const po::ProcessGroup& group);
 };
 

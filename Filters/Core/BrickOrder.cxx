@@ -34,16 +34,22 @@ std::vector<unsigned> orderInSpace(const Brick& brick)
     [](const Sphere& a, const Sphere& b) {
       return a.radius < b.radius;
     })->radius;
-  constexpr int positionBits = 60; // of a MortonCurve
-  constexpr float mostOctaves = 15;
+  const auto keyOf = [&](const Sphere& s)
+  {
+    constexpr int positionBits = 60; // of a MortonCurve
+    constexpr float mostOctaves = 15;
+    const float octave = std::min(mostOctaves, std::floor(std::log2(largest / s.radius)));
+    return static_cast<std::uint64_t>(octave) << positionBits | curve(s.center());
+  };
+  if (std::is_sorted(brick.spheres, brick.spheres + brick.count,
+        [&](const Sphere& a, const Sphere& b) { return keyOf(a) < keyOf(b); }))
+  {
+    return {};
+  }
   std::vector<std::pair<std::uint64_t, unsigned>> keys(brick.count);
   tbb::parallel_for(std::size_t(0), keys.size(),
-    [&](std::size_t i)
-    {
-      const Sphere& s = brick.spheres[i];
-      const float octave = std::min(mostOctaves, std::floor(std::log2(largest / s.radius)));
-      keys[i] = { static_cast<std::uint64_t>(octave) << positionBits | curve(s.center()),
-        static_cast<unsigned>(i) };
+    [&](std::size_t i) {
+      keys[i] = { keyOf(brick.spheres[i]), static_cast<unsigned>(i) };
     });
   tbb::parallel_sort(keys.begin(), keys.end());
   std::vector<unsigned> places(keys.size());

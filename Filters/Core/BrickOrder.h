@@ -13,7 +13,7 @@ namespace po
 [[nodiscard]] MortonCurve curveThrough(const Brick& brick);
 
 /// The places of a brick's spheres: by octaves of their radius, so that a large one is not among
-/// small ones, and along a Morton curve.
+/// small ones, and along a Morton curve. Empty where they are in this order already.
 [[nodiscard]] std::vector<unsigned> orderInSpace(const Brick& brick);
 }
 

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace po
 {
@@ -149,38 +150,36 @@ private:
 };
 
 template <typename Element>
-std::vector<Element> joined(const std::vector<Element>& first, const std::vector<Element>& second)
+void append(std::vector<Element>& first, const std::vector<Element>& second)
 {
-  std::vector<Element> all;
-  all.reserve(first.size() + second.size());
-  all.insert(all.end(), first.begin(), first.end());
-  all.insert(all.end(), second.begin(), second.end());
-  return all;
+  first.reserve(first.size() + second.size());
+  first.insert(first.end(), second.begin(), second.end());
 }
 
 /// Centres in full, if there are none those of the floats.
-std::vector<Vec3d> fullCenters(
-  const std::vector<Sphere>& spheres, const std::vector<Vec3d>& centers)
+void fillCenters(const std::vector<Sphere>& spheres, std::vector<Vec3d>& centers)
 {
-  std::vector<Vec3d> all = centers;
-  for (std::size_t i = all.size(); i < spheres.size(); ++i)
+  centers.reserve(spheres.size());
+  for (std::size_t i = centers.size(); i < spheres.size(); ++i)
   {
-    all.push_back(spheres[i].center().as<double>());
+    centers.push_back(spheres[i].center().as<double>());
   }
-  return all;
 }
 
-/// The particles, then the occluders.
-SphereSet joined(const SphereCloud& cloud, const Occluders& occluders)
+/// The particles, then the occluders. Takes the spheres out of the cloud.
+SphereSet joined(SphereCloud& cloud, const Occluders& occluders)
 {
-  std::vector<Sphere> spheres = joined(cloud.spheres, occluders.spheres);
-  if (cloud.centers.empty() && occluders.centers.empty())
+  std::vector<Sphere> spheres = std::move(cloud.spheres);
+  std::vector<Vec3d> centers = std::move(cloud.centers);
+  if (!centers.empty() || !occluders.centers.empty())
   {
-    return SphereSet(std::move(spheres));
+    std::vector<Vec3d> others = occluders.centers;
+    fillCenters(occluders.spheres, others);
+    fillCenters(spheres, centers);
+    append(centers, others);
   }
-  return SphereSet(std::move(spheres),
-    joined(fullCenters(cloud.spheres, cloud.centers),
-      fullCenters(occluders.spheres, occluders.centers)));
+  append(spheres, occluders.spheres);
+  return SphereSet(std::move(spheres), std::move(centers));
 }
 
 /// Hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
@@ -188,10 +187,11 @@ constexpr double BytesPerSphere = 300;
 }
 
 BakeScene::BakeScene(
-  const SphereCloud& sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
-  : set_(std::make_shared<const SphereSet>(joined(sphereCloud, occluders)))
+  SphereCloud sphereCloud, const Occluders& occluders, const ProcessGroup& processes)
+  : receivers_(sphereCloud.spheres.size())
+  , set_(std::make_shared<const SphereSet>(joined(sphereCloud, occluders)))
   , hasMesh_(!occluders.mesh.triangles.empty())
-  , cloud(sphereCloud)
+  , cloud(std::move(sphereCloud))
   , overlaps(*set_)
   , group(processes)
 {
@@ -217,7 +217,7 @@ std::uint64_t BakeScene::randomKey(unsigned particle) const
   }
   std::array<std::uint64_t, 2> words{};
   static_assert(sizeof(words) == sizeof(Sphere));
-  std::memcpy(words.data(), &cloud.spheres[particle], sizeof(words));
+  std::memcpy(words.data(), &set_->spheres()[particle], sizeof(words));
   return mixBits(words[0] + 0x9E3779B97F4A7C15ull * mixBits(words[1]));
 }
 

@@ -28,11 +28,11 @@ namespace po
 class BakeScene
 {
 public:
-  explicit BakeScene(const SphereCloud& cloud, const Occluders& occluders = {},
+  explicit BakeScene(SphereCloud cloud, const Occluders& occluders = {},
     const ProcessGroup& group = ProcessGroup::alone());
 
   /// Number of particles; also the number of the first sphere that is none.
-  [[nodiscard]] std::size_t receivers() const { return cloud.spheres.size(); }
+  [[nodiscard]] std::size_t receivers() const { return receivers_; }
 
   /// A number that stands for a particle in the choice of random numbers. It depends on its
   /// id alone, or without ids on its sphere: a particle keeps its noise, whatever it is read after
@@ -49,12 +49,13 @@ public:
   [[nodiscard]] const SphereScene& rays() const { return *rays_; }
 
 private:
+  std::size_t receivers_;
   std::shared_ptr<const SphereSet> set_;
   bool hasMesh_;
   mutable std::unique_ptr<const SphereScene> rays_;
 
 public:
-  const SphereCloud& cloud;  ///< the particles alone
+  const SphereCloud cloud;   ///< the particles' frame and ids; the set has their spheres
   OverlapFinder overlaps;    ///< of all spheres
   const ProcessGroup& group; ///< who bakes together
 };

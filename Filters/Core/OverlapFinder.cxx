@@ -18,26 +18,24 @@ struct SphereBoxes
   /// half a second to build for a million.
   static constexpr std::size_t Spheres = 8;
 
-  struct Places
-  {
-    const unsigned* first;
-    const unsigned* last;
-    [[nodiscard]] const unsigned* begin() const { return first; }
-    [[nodiscard]] const unsigned* end() const { return last; }
-    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(last - first); }
-  };
-
   const Brick* brick;
-  std::vector<unsigned> places; ///< box after box
+  std::vector<unsigned> places; ///< box after box; empty: one after the other
 
   [[nodiscard]] unsigned count() const
   {
-    return static_cast<unsigned>((places.size() + Spheres - 1) / Spheres);
+    return static_cast<unsigned>((brick->count + Spheres - 1) / Spheres);
   }
-  [[nodiscard]] Places in(unsigned box) const
+
+  /// Calls action(place) for the spheres of a box.
+  template <typename Action>
+  void forEachIn(unsigned box, const Action& action) const
   {
     const std::size_t first = Spheres * box;
-    return { places.data() + first, places.data() + std::min(first + Spheres, places.size()) };
+    const std::size_t last = std::min(first + Spheres, brick->count);
+    for (std::size_t i = first; i < last; ++i)
+    {
+      action(places.empty() ? static_cast<unsigned>(i) : places[i]);
+    }
   }
 };
 
@@ -57,16 +55,17 @@ void boxBounds(const RTCBoundsFunctionArguments* arguments)
   const auto& boxes = *static_cast<const SphereBoxes*>(arguments->geometryUserPtr);
   constexpr float infinity = std::numeric_limits<float>::infinity();
   RTCBounds box{ infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0 };
-  for (const unsigned place : boxes.in(arguments->primID))
-  {
-    const Sphere& s = boxes.brick->spheres[place];
-    box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
-    box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
-    box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
-    box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
-    box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
-    box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
-  }
+  boxes.forEachIn(arguments->primID,
+    [&](unsigned place)
+    {
+      const Sphere& s = boxes.brick->spheres[place];
+      box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
+      box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
+      box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
+      box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
+      box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
+      box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
+    });
   *arguments->bounds_o = box;
 }
 
@@ -84,20 +83,23 @@ struct Query
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
-    // Most are too far away: told in floats, for all at once, since their memory is far apart.
-    const SphereBoxes::Places places = boxes->in(arguments->primID);
-    std::array<bool, SphereBoxes::Spheres> isNear{};
-    for (std::size_t i = 0; i < places.size(); ++i)
+    // Most are too far away: told in floats, for all at once, since they may be far apart in
+    // memory.
+    std::array<unsigned, SphereBoxes::Spheres> near{};
+    std::size_t count = 0;
+    boxes->forEachIn(arguments->primID,
+      [&](unsigned place)
+      {
+        const Sphere& sphere = boxes->brick->spheres[place];
+        const Vec3f offset = sphere.center() - center;
+        const float reach = (radius + sphere.radius) * (1 + 1e-5f);
+        near[count] = place;
+        count += dot(offset, offset) <= reach * reach ? 1 : 0;
+      });
+    for (std::size_t i = 0; i < count; ++i)
     {
-      const Sphere& sphere = boxes->brick->spheres[places.first[i]];
-      const Vec3f offset = sphere.center() - center;
-      const float reach = (radius + sphere.radius) * (1 + 1e-5f);
-      isNear[i] = dot(offset, offset) <= reach * reach;
-    }
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      const unsigned other = boxes->brick->id(places.first[i]);
-      if (isNear[i] && other != id)
+      const unsigned other = boxes->brick->id(near[i]);
+      if (other != id)
       {
         action(other);
       }

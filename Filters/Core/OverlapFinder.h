@@ -45,7 +45,8 @@ struct SphereBoxes;
 ///
 /// Embree's point query looks the neighbours up in a hierarchy of boxes; it does not see sphere
 /// points (Embree 3 and 4), so the boxes are a user geometry. Eight spheres share a box: the
-/// hierarchy takes 13 bytes a sphere. The spheres must outlive the finder.
+/// hierarchy takes 9 bytes a sphere, and 4 more where these are in another order than it. The
+/// spheres must outlive the finder.
 class OverlapFinder
 {
 public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ProgressiveSweep.h"
 
+#include "HeapMemory.h"
 #include "Random.h"
 #include "SweepDirections.h"
 
@@ -29,6 +30,7 @@ void drawWatched(std::vector<unsigned>& particles, std::uint64_t seed)
     std::swap(particles[i], particles[i + random.below(left)]);
   }
   particles.resize(count);
+  particles.shrink_to_fit();
 }
 
 /// Watched particles by their index in the order.
@@ -91,10 +93,10 @@ std::vector<std::uint8_t> aloneFlags(
 }
 }
 
-ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
+ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, const std::vector<unsigned>& particles,
   const BakeSettings& settings, const Options& options)
   : settings_(settings)
-  , particles_(std::move(particles))
+  , particles_(particles)
   , order_(scene.set())
   , texels_(settings.textureResolution)
   , watched_(watchedSpheres(order_, particles_, settings.seed, options.watch))
@@ -107,6 +109,7 @@ ProgressiveSweep::ProgressiveSweep(const BakeScene& scene, std::vector<unsigned>
       records_, options.skips, alone_, scene.group)
   , smooth_(options.smooth)
 {
+  alone_ = {}; // the others know
 }
 
 void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
@@ -123,6 +126,12 @@ void ProgressiveSweep::refine(int directions, Progress& progress, Spread spread)
     sweep_.run(sweepAxes(axes, seed), progress, subset);
     ++rounds_;
   }
+}
+
+void ProgressiveSweep::end()
+{
+  sweep_.end();
+  returnFreeMemory();
 }
 
 int ProgressiveSweep::directions() const

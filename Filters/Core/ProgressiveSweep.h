@@ -52,8 +52,8 @@ public:
   };
 
   /// @param particles whose textures are wanted, by their index in the cloud; all others occlude.
-  /// The scene and the settings must outlive this.
-  ProgressiveSweep(const BakeScene& scene, std::vector<unsigned> particles,
+  /// It, the scene and the settings must outlive this.
+  ProgressiveSweep(const BakeScene& scene, const std::vector<unsigned>& particles,
     const BakeSettings& settings, const Options& options);
 
   /// How further directions are spread.
@@ -66,6 +66,9 @@ public:
   /// Sweeps that many more directions, rounded up to whole axes (two opposite directions) and
   /// subsets. Returns early when `progress` says so; the sweep cannot go on then.
   void refine(int directions, Progress& progress, Spread spread = Spread::Evenly);
+
+  /// Gives back the memory that only refine() needs: it may not be called any more.
+  void end();
 
   /// Swept so far, without those that the background makes black.
   [[nodiscard]] int directions() const;
@@ -92,7 +95,7 @@ private:
   [[nodiscard]] std::size_t loadFor(std::size_t place) const;
 
   const BakeSettings& settings_;
-  std::vector<unsigned> particles_;
+  const std::vector<unsigned>& particles_;
   SweepScene order_;
   SweepTexels texels_;
   std::vector<unsigned> watched_;   ///< by index in `order_`

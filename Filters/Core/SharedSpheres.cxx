@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <tuple>
+#include <utility>
 
 namespace po
 {
@@ -127,28 +128,6 @@ auto identityOf(const WideSphere& s)
   return std::tuple_cat(identityOf(s.sphere), std::make_tuple(s.center));
 }
 
-/// A sphere with its place along a curve. The radius of a ghost travels negative.
-template <typename Travelling>
-struct Place
-{
-  std::uint64_t morton;
-  Travelling sphere;
-
-  [[nodiscard]] bool isGhost() const { return sphereOf(sphere).radius < 0; }
-
-  [[nodiscard]] auto identity() const
-  {
-    return std::tuple_cat(std::make_tuple(morton), identityOf(sphere));
-  }
-
-  /// Of equal spheres ghosts come last.
-  bool operator<(const Place& other) const
-  {
-    return identity() != other.identity() ? identity() < other.identity()
-                                          : isGhost() < other.isGhost();
-  }
-};
-
 /// The curve must be the same everywhere, whatever part of the spheres is at hand.
 MortonCurve commonCurve(const std::vector<Sphere>& own, const ProcessGroup& group)
 {
@@ -162,44 +141,89 @@ MortonCurve commonCurve(const std::vector<Sphere>& own, const ProcessGroup& grou
   return { { -half, -half, -half }, 2 * half };
 }
 
+/// The order of spheres along a curve, 16 bytes each. The radius of a ghost travels negative; of
+/// equal spheres ghosts come last.
 template <typename Travelling>
-std::vector<Place<Travelling>> sortedPlaces(
-  const std::vector<Travelling>& spheres, const MortonCurve& curve)
+class OrderedSpheres
 {
-  std::vector<Place<Travelling>> places(spheres.size());
-  tbb::parallel_for(std::size_t(0), spheres.size(),
-    [&](std::size_t i) {
-      places[i] = { curve(sphereOf(spheres[i]).center()), spheres[i] };
-    });
-  tbb::parallel_sort(places.begin(), places.end());
-  return places;
-}
-
-/// A ghost goes if its original, or another copy, is there.
-template <typename Travelling>
-void removeGhosts(std::vector<Place<Travelling>>& places)
-{
-  std::size_t kept = 0;
-  for (const Place<Travelling>& place : places)
+public:
+  /// The spheres must outlive this.
+  OrderedSpheres(const std::vector<Travelling>& spheres, const MortonCurve& curve)
+    : spheres_(spheres)
+    , curve_(curve)
+    , places_(spheres.size())
   {
-    const bool copy =
-      place.isGhost() && kept > 0 && places[kept - 1].identity() == place.identity();
-    if (!copy)
-    {
-      places[kept++] = place;
-    }
+    tbb::parallel_for(std::size_t(0), spheres.size(),
+      [this](std::size_t i) {
+        places_[i] = { curve_(sphereOf(spheres_[i]).center()), static_cast<unsigned>(i) };
+      });
+    tbb::parallel_sort(places_.begin(), places_.end(),
+      [this](const Place& a, const Place& b) { return isBefore(a, b); });
+    removeGhosts();
   }
-  places.resize(kept);
-}
 
-template <typename Travelling>
-unsigned placeOf(
-  const Travelling& sphere, const std::vector<Place<Travelling>>& places, const MortonCurve& curve)
-{
-  const Place<Travelling> wanted{ curve(sphereOf(sphere).center()), sphere };
-  return static_cast<unsigned>(
-    std::lower_bound(places.begin(), places.end(), wanted) - places.begin());
-}
+  [[nodiscard]] std::size_t size() const { return places_.size(); }
+  [[nodiscard]] const Travelling& operator[](std::size_t place) const
+  {
+    return spheres_[places_[place].index];
+  }
+
+  /// The first place of spheres that are equal to this one, which is no ghost.
+  [[nodiscard]] unsigned find(const Travelling& sphere) const
+  {
+    const std::uint64_t morton = curve_(sphereOf(sphere).center());
+    const auto found = std::lower_bound(places_.begin(), places_.end(), sphere,
+      [this, morton](const Place& place, const Travelling& wanted)
+      {
+        return place.morton != morton ? place.morton < morton
+                                      : identityOf(spheres_[place.index]) < identityOf(wanted);
+      });
+    return static_cast<unsigned>(found - places_.begin());
+  }
+
+private:
+  struct Place
+  {
+    std::uint64_t morton;
+    unsigned index;
+  };
+
+  [[nodiscard]] bool isGhost(const Place& place) const
+  {
+    return sphereOf(spheres_[place.index]).radius < 0;
+  }
+
+  [[nodiscard]] bool isBefore(const Place& a, const Place& b) const
+  {
+    if (a.morton != b.morton)
+    {
+      return a.morton < b.morton;
+    }
+    const auto first = identityOf(spheres_[a.index]);
+    const auto second = identityOf(spheres_[b.index]);
+    return first != second ? first < second : isGhost(a) < isGhost(b);
+  }
+
+  /// A ghost goes if its original, or another copy, is there.
+  void removeGhosts()
+  {
+    std::size_t kept = 0;
+    for (const Place& place : places_)
+    {
+      const bool copy = isGhost(place) && kept > 0 &&
+        identityOf(spheres_[places_[kept - 1].index]) == identityOf(spheres_[place.index]);
+      if (!copy)
+      {
+        places_[kept++] = place;
+      }
+    }
+    places_.resize(kept);
+  }
+
+  const std::vector<Travelling>& spheres_;
+  MortonCurve curve_;
+  std::vector<Place> places_;
+};
 
 std::vector<TravellingTriangle> travelling(const OccluderMesh& mesh)
 {
@@ -295,44 +319,46 @@ template <typename Travelling>
 SharedSpheres share(const std::vector<Travelling>& marked, const MortonCurve& curve,
   const Neighbourhood& neighbourhood, const ProcessGroup& group)
 {
-  std::vector<Place<Travelling>> places = sortedPlaces(
-    distribute(marked, group, neighbourhood.boxes.empty(), mattersTo(neighbourhood)), curve);
-  removeGhosts(places);
+  std::vector<Travelling> arrived;
+  if (group.size() > 1)
+  {
+    arrived = distribute(marked, group, neighbourhood.boxes.empty(), mattersTo(neighbourhood));
+  }
+  const OrderedSpheres<Travelling> all(group.size() > 1 ? arrived : marked, curve);
 
   SharedSpheres shared;
   shared.places.resize(marked.size());
   // Of equal spheres, ghosts among them, the first one stands for all.
   tbb::parallel_for(std::size_t(0), marked.size(),
-    [&](std::size_t i) { shared.places[i] = placeOf(withoutMark(marked[i]), places, curve); });
-  shared.spheres.reserve(places.size());
-  for (const Place<Travelling>& place : places)
+    [&](std::size_t i) { shared.places[i] = all.find(withoutMark(marked[i])); });
+  shared.spheres.reserve(all.size());
+  for (std::size_t place = 0; place < all.size(); ++place)
   {
-    shared.spheres.push_back(withoutMark(sphereOf(place.sphere)));
-    appendCenter(place.sphere, shared.centers);
+    shared.spheres.push_back(withoutMark(sphereOf(all[place])));
+    appendCenter(all[place], shared.centers);
   }
   return shared;
 }
 }
 
-SharedSpheres shareSpheres(const std::vector<Sphere>& own, const std::vector<std::uint8_t>& ghosts,
+SharedSpheres shareSpheres(std::vector<Sphere> own, const std::vector<std::uint8_t>& ghosts,
   const Neighbourhood& neighbourhood, const ProcessGroup& group, const std::vector<Vec3d>& centers)
 {
   const MortonCurve curve = commonCurve(own, group);
-  std::vector<Sphere> marked = own;
   for (std::size_t i = 0; i < ghosts.size(); ++i)
   {
-    marked[i].radius = ghosts[i] != 0 ? -own[i].radius : own[i].radius;
+    own[i].radius = ghosts[i] != 0 ? -own[i].radius : own[i].radius;
   }
   if (group.largest(centers.empty() ? 0.0 : 1.0) == 0)
   {
-    return share(marked, curve, neighbourhood, group);
+    return share(own, curve, neighbourhood, group);
   }
   std::vector<WideSphere> wide;
-  wide.reserve(marked.size());
-  for (std::size_t i = 0; i < marked.size(); ++i)
+  wide.reserve(own.size());
+  for (std::size_t i = 0; i < own.size(); ++i)
   {
-    const Vec3d c = centers.empty() ? marked[i].center().as<double>() : centers[i];
-    wide.push_back({ marked[i], { c.x, c.y, c.z } });
+    const Vec3d c = centers.empty() ? own[i].center().as<double>() : centers[i];
+    wide.push_back({ own[i], { c.x, c.y, c.z } });
   }
   return share(wide, curve, neighbourhood, group);
 }
@@ -341,7 +367,8 @@ Occluders shareOccluders(
   Occluders own, const Neighbourhood& neighbourhood, const ProcessGroup& group)
 {
   Occluders all;
-  SharedSpheres spheres = shareSpheres(own.spheres, {}, neighbourhood, group, own.centers);
+  SharedSpheres spheres =
+    shareSpheres(std::move(own.spheres), {}, neighbourhood, group, own.centers);
   all.spheres = std::move(spheres.spheres);
   all.centers = std::move(spheres.centers);
   if (group.size() == 1)

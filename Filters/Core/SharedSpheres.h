@@ -44,7 +44,7 @@ struct SharedSpheres
 /// @param ghosts flags by own sphere, or empty: copies of spheres that another process has. One
 /// whose original is nowhere counts as a sphere, once.
 /// @param centers of the own spheres in full, or none (see SphereSet)
-[[nodiscard]] SharedSpheres shareSpheres(const std::vector<Sphere>& own,
+[[nodiscard]] SharedSpheres shareSpheres(std::vector<Sphere> own,
   const std::vector<std::uint8_t>& ghosts, const Neighbourhood& neighbourhood,
   const ProcessGroup& group, const std::vector<Vec3d>& centers = {});
 

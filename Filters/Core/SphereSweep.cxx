@@ -67,6 +67,7 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   {
     division_.emplace(group, records);
   }
+  takesPart_.reserve(alone.size());
   for (const std::uint8_t isAlone : alone)
   {
     takesPart_.push_back(isAlone != 0 ? Never : WhereAllDo);
@@ -85,6 +86,16 @@ void SphereSweep::run(
       subset.value_or(blocks_ % ErrorSubsets), progress);
     first = last;
   }
+}
+
+void SphereSweep::end()
+{
+  threads_ = threads();
+  counted_ = { counters(false), counters(true) };
+  tileSweeps_.clear();
+  workspaces_.clear();
+  everSeen_ = decltype(everSeen_)();
+  takesPart_ = {};
 }
 
 /// A small block shows soon whether closed cells are worth their cost.
@@ -248,7 +259,7 @@ SweepCounters SphereSweep::counters() const
 
 SweepCounters SphereSweep::counters(bool full) const
 {
-  SweepCounters sum;
+  SweepCounters sum = counted_[full ? 1 : 0];
   for (const TileWorkspace& work : tileSweeps_)
   {
     sum.add(work.sweep.counters(full));

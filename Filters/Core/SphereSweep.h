@@ -9,6 +9,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <optional>
@@ -54,6 +55,9 @@ public:
   void run(const std::vector<Vec3d>& axes, Progress& progress,
     std::optional<std::size_t> subset = std::nullopt);
 
+  /// Gives back the memory that further directions would need: none may follow.
+  void end();
+
   /// Directions so far, those that the background makes black included.
   [[nodiscard]] int directions() const { return directions_; }
   [[nodiscard]] SweepCounters counters() const;
@@ -63,7 +67,10 @@ public:
   [[nodiscard]] std::uint64_t neverSeen() const { return neverSeen_; }
   /// Directions not swept since the background is black there.
   [[nodiscard]] int blackDirections() const { return blackDirections_; }
-  [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(tileSweeps_.size()); }
+  [[nodiscard]] unsigned threads() const
+  {
+    return std::max(threads_, static_cast<unsigned>(tileSweeps_.size()));
+  }
 
 private:
   /// Two opposite directions of a block.
@@ -140,6 +147,9 @@ private:
   int directions_ = 0; ///< black ones too
   int blackDirections_ = 0;
   std::uint64_t neverSeen_ = 0;
+  // Of threads whose memory was given back.
+  std::array<SweepCounters, 2> counted_;
+  unsigned threads_ = 0;
 };
 }
 

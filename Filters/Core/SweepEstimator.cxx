@@ -57,6 +57,7 @@ public:
     report_.directions = sweep_.directions();
     if (!progress_.aborted())
     {
+      sweep_.end();
       sweep_.handOut(sink, progress_, counters, refined_);
     }
   }
@@ -223,6 +224,7 @@ void SweepEstimator::sweepOnce(const BakeScene& scene, const std::vector<unsigne
   report_.directions = sweep.directions();
   if (!progress.aborted())
   {
+    sweep.end();
     sweep.handOut(sink, progress, counters);
     report_.estimatedError = sweep.estimatedError();
   }
