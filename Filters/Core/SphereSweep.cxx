@@ -220,6 +220,7 @@ void SphereSweep::finishBlock()
     if (everSeen_[i].load(std::memory_order_relaxed) != 0)
     {
       takesPart_[i] = Always;
+      records_.markSeen(static_cast<unsigned>(i));
       ++seen_;
     }
   }

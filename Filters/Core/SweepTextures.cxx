@@ -55,7 +55,7 @@ void SweepTextures::prefetch(unsigned sphere) const
 
 void SweepTextures::lookAt(const TexelRims& known, CutSurface& cut) const
 {
-  // One that was not seen, but is watched.
+  // Not yet: one that was seen in the last block alone, or was not seen, but is watched.
   const TexelRims rims = known.areToldApart() ? known : cut.finder.find(records_.texels(), known);
   cut.rims.assign(rims.count * GroupSize, 0.0f);
   formula_.cutWhole(rims.outside, cut.surface);

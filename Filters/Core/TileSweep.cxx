@@ -79,16 +79,16 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
         return true;
       }
     }
-    const bool visible = sees(s, sphere, direction);
+    const Sight sight = look(s, sphere, direction);
     if (direction.useClosedCells)
     {
       closed_.close(sphere); // hidden or not, it closes what it covers
     }
-    if (!visible && !bounded)
+    if (sight == Sight::Nothing && !bounded)
     {
       return true;
     }
-    if (visible && s.role == TileRole::Receiver)
+    if (sight == Sight::Surface && s.role == TileRole::Receiver)
     {
       seen[sphere.index] = static_cast<std::uint8_t>(seen[sphere.index] | direction.bit());
     }
@@ -97,25 +97,25 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
   return true;
 }
 
-bool TileSweep::sees(
+TileSweep::Sight TileSweep::look(
   const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
 {
   std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
   if (!records_.clearCovered(sphere.index, mask_.data()) ||
     !passes(cells_.cellOf(sphere), sphere, direction) || !passes(cells_.wide(), sphere, direction))
   {
-    return false;
+    return Sight::Nothing;
   }
   records_.prefetchMasks(sphere.index, direction.axis);
   if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))
   {
-    return false;
+    return Sight::PointsInside;
   }
   if (tileSphere.role == TileRole::Receiver)
   {
     keep(sphere.index, direction);
   }
-  return true;
+  return Sight::Surface;
 }
 
 /// The mask of the sphere at hand, for those who have listed it.
