@@ -242,11 +242,12 @@ void BakeCache::store(
 }
 
 BakeResult bakeOrLoad(const CacheSettings& settings, int method, BakeTask& task,
-  const ProcessGroup& group, Progress& progress, BakeReport& report, std::string& warning)
+  const ProcessGroup& group, Progress& progress, BakeReport& report, BakeReuse& reuse,
+  std::string& warning)
 {
   if (!settings.use)
   {
-    return bakeByMethod(method, task, group, progress, report);
+    return bakeByMethod(method, task, group, progress, report, reuse);
   }
   CacheOfBake cache(settings, bakeKey(method, task, group));
   BakeResult result;
@@ -258,7 +259,7 @@ BakeResult bakeOrLoad(const CacheSettings& settings, int method, BakeTask& task,
     report.loaded = true;
     return result;
   }
-  result = bakeByMethod(method, task, group, progress, report);
+  result = bakeByMethod(method, task, group, progress, report, reuse);
   if (!result.aborted)
   {
     cache.store(result, report);

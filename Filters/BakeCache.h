@@ -52,7 +52,8 @@ private:
 /// wrong with the cache does not stop the bake.
 /// @param warning what went wrong, on the first process where something did; empty on the others
 [[nodiscard]] BakeResult bakeOrLoad(const CacheSettings& settings, int method, BakeTask& task,
-  const ProcessGroup& group, Progress& progress, BakeReport& report, std::string& warning);
+  const ProcessGroup& group, Progress& progress, BakeReport& report, BakeReuse& reuse,
+  std::string& warning);
 }
 
 #endif

@@ -16,7 +16,7 @@ namespace po
 {
 namespace
 {
-const std::string FormatLine = "ParticleOcclusion bake 2\n";
+const std::string FormatLine = "ParticleOcclusion bake 3\n";
 constexpr std::size_t DigestCharacters = 32;
 
 /// The format, the key and the digest of the rest, a line each.
@@ -183,10 +183,10 @@ void visitEntry(Archive& archive, Result& result, Report& report)
   archive.array(mean);
   // The numbers of the input are known without a bake.
   auto& [counters, method, directions, samplesUsed, estimatedError, storageDifference, maximum,
-    refined, leftOut, textureBytes, occluderSpheres, occluderTriangles, loaded] = report;
+    refined, reused, leftOut, textureBytes, occluderSpheres, occluderTriangles, loaded] = report;
   visitCounters(archive, counters);
-  visitNumbers(
-    archive, method, directions, samplesUsed, estimatedError, storageDifference, maximum, refined);
+  visitNumbers(archive, method, directions, samplesUsed, estimatedError, storageDifference, maximum,
+    refined, reused);
 }
 
 std::string readHead(std::istream& stream, const std::string& key)

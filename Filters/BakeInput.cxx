@@ -23,10 +23,11 @@ namespace po
 namespace
 {
 SphereCloud readParticles(BakeInput& input, const RadiusSettings& radii,
-  const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
+  const std::vector<vtkPointSet*>& blocks, FrameFit fit, const ProcessGroup& group)
 {
   std::string error;
-  std::optional<ParticleInput> particles = readBlocks(blocks, radii, error, nullptr, group);
+  std::optional<ParticleInput> particles =
+    readBlocks(blocks, radii, error, { nullptr, fit }, group);
   if (!particles)
   {
     throw std::invalid_argument(error);
@@ -138,11 +139,11 @@ void findPoints(BakeInput& input, const SphereCloud& own, const std::vector<unsi
 /// Exchanges particles and occluders with the other processes.
 void makeTask(BakeInput& input, SphereCloud own, Occluders occluders,
   const std::vector<std::uint64_t>& idOfPoint, const BakeSettings& settings,
-  const std::vector<vtkPointSet*>& blocks, const ProcessGroup& group)
+  const std::vector<vtkPointSet*>& blocks, FrameFit fit, const ProcessGroup& group)
 {
   const Neighbourhood neighbourhood(own.spheres, own.toLocalReach(settings.maximumDistance), group);
   SharedSpheres shared =
-    shareSpheres(std::move(own.spheres), own.ghosts, neighbourhood, group, own.centers);
+    shareSpheres(std::move(own.spheres), own.ghosts, neighbourhood, group, own.centers, fit);
   own.centers = {};
 
   BakeTask& task = input.task;
@@ -152,7 +153,7 @@ void makeTask(BakeInput& input, SphereCloud own, Occluders occluders,
   task.cloud.centers = std::move(shared.centers);
   task.cloud.ids = idsByPlace(idOfPoint, own, shared.places, task.cloud.spheres.size());
   task.receivers = distinct(shared.places);
-  task.occluders = shareOccluders(std::move(occluders), neighbourhood, group);
+  task.occluders = shareOccluders(std::move(occluders), neighbourhood, group, fit);
   task.settings = settings;
   findPoints(input, own, shared.places, blocks);
 }
@@ -162,7 +163,10 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
   const std::vector<vtkPointSet*>& blocks, vtkDataObject* occluders, const ProcessGroup& group)
 {
   BakeInput input;
-  SphereCloud own = readParticles(input, radiiOf(filter), blocks, group);
+  // Floats of what rests must stay for its textures to stay.
+  const bool reuse = reusesTextures(filter);
+  const FrameFit fit = reuse ? FrameFit::Steady : FrameFit::Exact;
+  SphereCloud own = readParticles(input, radiiOf(filter), blocks, fit, group);
   const std::vector<std::uint64_t> idOfPoint = readIds(blocks, idArrayOf(filter), group);
   OccluderInput others = readOccluders(occluders, radiiOf(filter), own, group);
 
@@ -179,9 +183,11 @@ BakeInput readBakeInput(vtkSphereAmbientOcclusion& filter, const BakeSettings& s
       input.warnings.insert(input.warnings.begin(), describe(rejected));
     }
   }
-  makeTask(input, std::move(own), std::move(others.occluders), idOfPoint, settings, blocks, group);
+  makeTask(
+    input, std::move(own), std::move(others.occluders), idOfPoint, settings, blocks, fit, group);
   input.task.targetError = filter.GetTargetError();
   input.task.outOfCore = filter.GetOutOfCore();
+  input.task.reuseUnchanged = reuse;
   return input;
 }
 }

@@ -94,8 +94,9 @@ void add(Digest& digest, const Occluders& occluders)
 
 void add(Digest& digest, const BakeTask& task)
 {
-  const auto& [cloud, receivers, occluders, settings, targetError, outOfCore] = task;
+  const auto& [cloud, receivers, occluders, settings, targetError, outOfCore, reuse] = task;
   static_cast<void>(outOfCore); // the bits are the same
+  static_cast<void>(reuse);     // so they are of the task that it makes
   add(digest, cloud);
   digest.add(receivers);
   add(digest, occluders);
@@ -123,5 +124,23 @@ std::string bakeKey(int method, const BakeTask& task, const ProcessGroup& group)
   addNumber(digest, method);
   add(digest, task);
   return keyOfAll(digest.text(), group);
+}
+
+std::string textureKey(int method, const BakeTask& task)
+{
+  BakeSettings settings = task.settings;
+  const BakeSettings defaults;
+  settings.dilateInside = defaults.dilateInside;
+  settings.insideThreshold = defaults.insideThreshold;
+  settings.encoding = defaults.encoding;
+  settings.storage = defaults.storage;
+  settings.storageError = defaults.storageError;
+  Digest digest;
+  addNumber(digest, method);
+  add(digest, task.cloud.origin);
+  addNumber(digest, task.cloud.scale);
+  add(digest, settings);
+  addNumber(digest, task.targetError);
+  return digest.text();
 }
 }

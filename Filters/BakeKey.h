@@ -14,6 +14,10 @@ namespace po
 /// result of its own.
 /// @param method the one that is used, not Automatic
 [[nodiscard]] std::string bakeKey(int method, const BakeTask& task, const ProcessGroup& group);
+
+/// The same for what the textures of single particles depend on beside the spheres and triangles
+/// around them: the frame, the method, and the settings but for those of dilation and storage.
+[[nodiscard]] std::string textureKey(int method, const BakeTask& task);
 }
 
 #endif

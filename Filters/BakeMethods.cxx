@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakeMethods.h"
 
+#include "BakeReuse.h"
 #include "EmbreeEstimator.h"
 #include "ErrorPilot.h"
 #include "FreeMemory.h"
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -47,11 +49,14 @@ double errorOfAll(double own, double weight, const ProcessGroup& group)
 class MethodBake
 {
 public:
-  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+  MethodBake(BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report,
+    BakeReuse& reuse)
     : task_(task)
     , group_(group)
     , progress_(progress)
     , report_(report)
+    , reuse_(reuse)
+    , reuses_(BakeReuse::suits(report.method, task))
   {
   }
 
@@ -75,27 +80,35 @@ public:
     EmbreeOptions options;
     options.targetError = task_.targetError;
     const EmbreeEstimator embree(options);
-    requireMemory(memoryOf(task_, embree), task_.receivers.size());
-    BakeResult result = bake(embree, task_.receivers);
-    finish(result, embree.report().directions, embree.report().estimatedError, false);
+    BakeResult result = bakeChanges(embree);
+    const auto& [directions, error, reached, above] = embree.report();
+    if (reuses_)
+    {
+      finish(result, reuse_.mostDirections(directions), reuse_.textures().estimatedError(), false);
+    }
+    else
+    {
+      finish(result, directions, error, false);
+    }
     return result;
   }
 
   BakeResult byReference()
   {
     const ReferenceEstimator reference;
+    if (task_.targetError == 0)
+    {
+      BakeResult result = bakeChanges(reference);
+      finish(result, 0, 0, true);
+      return result;
+    }
     requireMemory(memoryOf(task_, reference), task_.receivers.size());
     const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
-    double error = 0;
-    if (task_.targetError > 0)
-    {
-      const PilotResult pilot = samplesForError(
-        scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
-      task_.settings.samplesPerTexel = pilot.samplesPerTexel;
-      error = pilot.estimatedError;
-    }
+    const PilotResult pilot = samplesForError(
+      scene, task_.receivers, task_.settings, reference, task_.targetError, progress_);
+    task_.settings.samplesPerTexel = pilot.samplesPerTexel;
     BakeResult result = bakeOcclusion(scene, task_.receivers, task_.settings, reference, progress_);
-    finish(result, 0, error, true);
+    finish(result, 0, pilot.estimatedError, true);
     return result;
   }
 
@@ -105,6 +118,28 @@ private:
     const BakeScene scene(std::move(task_.cloud), task_.occluders, group_);
     returnFreeMemory(); // of what has read and sorted the particles
     return bakeOcclusion(scene, particles, task_.settings, estimator, progress_);
+  }
+
+  /// By a method that can reuse textures; in the order of the receivers.
+  BakeResult bakeChanges(const OcclusionEstimator& estimator)
+  {
+    requireMemory(memoryOf(task_, estimator) + (reuses_ ? reuse_.bytesMissing(task_) : 0),
+      task_.receivers.size());
+    if (!reuses_)
+    {
+      return bake(estimator, task_.receivers);
+    }
+    std::optional<BakeTask> changed = reuse_.begin(report_.method, task_);
+    BakeTask& part = changed ? *changed : task_;
+    const BakeScene scene(std::move(part.cloud), part.occluders, group_);
+    BakeResult result =
+      bakeOcclusion(scene, part.receivers, part.settings, estimator, progress_, reuse_.textures());
+    if (!result.aborted)
+    {
+      reuse_.commit();
+      report_.reused = group_.sum(std::uint64_t(reuse_.textures().reused()));
+    }
+    return result;
   }
 
   /// @param errorIsOfAll whether the estimator has found it over all processes
@@ -128,6 +163,8 @@ private:
   const ProcessGroup& group_;
   Progress& progress_;
   BakeReport& report_;
+  BakeReuse& reuse_;
+  bool reuses_; ///< does the task suit it?
 };
 }
 
@@ -154,17 +191,18 @@ int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
   // Within about two radii the near spheres, which Embree's method tests without rays, are all
   // there is: it was 1.1 to 1.8 times as fast up to that, and half as fast or less at five.
   const double distance = task.settings.maximumDistance;
-  const bool close = distance > 0 && distance <= 2 * task.cloud.scale;
+  // Where textures are to be reused, parts of the set are baked.
+  const bool close = distance > 0 && (task.reuseUnchanged || distance <= 2 * task.cloud.scale);
   const bool full = group.any(memoryOf(task, sweepFor(task)) > freeMemory());
   return triangles || close || full ? vtkSphereAmbientOcclusion::Embree
                                     : vtkSphereAmbientOcclusion::Sweep;
 }
 
-BakeResult bakeByMethod(
-  int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report)
+BakeResult bakeByMethod(int method, BakeTask& task, const ProcessGroup& group, Progress& progress,
+  BakeReport& report, BakeReuse& reuse)
 {
   report.method = method;
-  MethodBake bake(task, group, progress, report);
+  MethodBake bake(task, group, progress, report, reuse);
   switch (method)
   {
     case vtkSphereAmbientOcclusion::Sweep:

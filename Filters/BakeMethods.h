@@ -22,12 +22,15 @@ struct BakeReport
   double storageDifference = 0; ///< RMS of what storing has changed
   double maximum = 0;           ///< scale of the encoded table
   std::size_t refined = 0;
+  std::size_t reused = 0; ///< particles whose textures were taken over from an earlier bake
   std::size_t leftOut = 0;
   std::size_t textureBytes = 0;
   std::size_t occluderSpheres = 0;
   std::size_t occluderTriangles = 0;
   bool loaded = false; ///< from a cache, instead of a bake
 };
+
+class BakeReuse;
 
 /// What a process bakes.
 struct BakeTask
@@ -37,7 +40,8 @@ struct BakeTask
   Occluders occluders;             ///< of all processes, as far as they matter here
   BakeSettings settings;
   double targetError = 0;
-  bool outOfCore = false; ///< Sweep keeps what it sees in a temporary file
+  bool outOfCore = false;      ///< Sweep keeps what it sees in a temporary file
+  bool reuseUnchanged = false; ///< see BakeReuse; Automatic then means a method that suits it
 };
 
 /// The numbers in ascending order, each once.
@@ -50,9 +54,10 @@ struct BakeTask
 /// Bakes the receivers and fills the report: method, directions, error, samples, refined, and the
 /// counters. With Reference and a target error settings.samplesPerTexel becomes what reaches it. Of
 /// the task's particles the frame and the list of receivers stay.
+/// @param reuse textures of earlier bakes, for tasks that suit it; takes up those of this one
 /// Throws like bakeOcclusion, and std::runtime_error where memory would not do.
-[[nodiscard]] BakeResult bakeByMethod(
-  int method, BakeTask& task, const ProcessGroup& group, Progress& progress, BakeReport& report);
+[[nodiscard]] BakeResult bakeByMethod(int method, BakeTask& task, const ProcessGroup& group,
+  Progress& progress, BakeReport& report, BakeReuse& reuse);
 }
 
 #endif

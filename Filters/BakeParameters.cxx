@@ -238,6 +238,14 @@ std::string idArrayOf(vtkSphereAmbientOcclusion& filter)
   return textOf(filter.GetIdArray());
 }
 
+bool reusesTextures(vtkSphereAmbientOcclusion& filter)
+{
+  using Filter = vtkSphereAmbientOcclusion;
+  const int method = filter.GetMethod();
+  return filter.GetReuseUnchanged() && filter.GetMaximumDistance() > 0 && method != Filter::Sweep &&
+    !(method == Filter::Reference && filter.GetTargetError() > 0);
+}
+
 CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)
 {
   return { filter.GetUseCache(), textOf(filter.GetCacheDirectory()), filter.GetCacheSizeLimit() };
@@ -283,6 +291,7 @@ OcclusionParameters describeBake(
   parameters.set("occluderTriangles", static_cast<long long>(report.occluderTriangles));
   parameters.set("occluderSpheres", static_cast<long long>(report.occluderSpheres));
   parameters.set("refinedParticles", static_cast<long long>(report.refined));
+  parameters.set("reusedParticles", static_cast<long long>(report.reused));
   return parameters;
 }
 }

@@ -26,6 +26,9 @@ namespace po
 
 [[nodiscard]] std::string idArrayOf(vtkSphereAmbientOcclusion& filter);
 
+/// ReuseUnchanged, where the other parameters let textures be reused.
+[[nodiscard]] bool reusesTextures(vtkSphereAmbientOcclusion& filter);
+
 [[nodiscard]] CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter);
 
 [[nodiscard]] const char* nameOfMethod(int method);

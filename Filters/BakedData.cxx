@@ -3,8 +3,8 @@
 
 #include "Blocks.h"
 #include "PackedArrays.h"
+#include "TableViews.h"
 
-#include "vtkAbstractArray.h"
 #include "vtkAppendPolyData.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -15,8 +15,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <mutex>
-#include <unordered_map>
+#include <memory>
 #include <utility>
 
 namespace po
@@ -82,9 +81,7 @@ public:
   }
 
   /// The rows at which its textures begin, in order.
-  [[nodiscard]] const std::vector<std::int32_t>& firsts() const { return firsts_; }
-  /// How many tuples of the table such a texture has.
-  [[nodiscard]] std::size_t tuplesAt(std::int32_t row) const { return table_.tuplesAt(row); }
+  [[nodiscard]] std::vector<std::int32_t> takeFirsts() { return std::move(firsts_); }
   /// Of each row of the table: its place in the selection, or -1.
   [[nodiscard]] std::vector<std::int32_t> takePlaces() { return std::move(newRow_); }
   [[nodiscard]] std::size_t tuples() const { return tuples_; }
@@ -95,23 +92,6 @@ private:
   std::vector<std::int32_t> firsts_;
   std::size_t tuples_ = 0;
 };
-
-template <typename Array, typename Value>
-vtkSmartPointer<vtkDataArray> copyTextures(
-  const std::vector<Value>& values, std::size_t width, const TextureSelection& selection)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(TextureTableArray);
-  array->SetNumberOfComponents(static_cast<int>(width));
-  array->SetNumberOfTuples(static_cast<vtkIdType>(selection.tuples()));
-  Value* target = array->GetPointer(0);
-  for (const std::int32_t first : selection.firsts())
-  {
-    target = std::copy_n(values.data() + static_cast<std::size_t>(first) * width,
-      selection.tuplesAt(first) * width, target);
-  }
-  return array;
-}
 
 /// Brings tuples to their places, without a copy of all.
 template <typename Value>
@@ -129,61 +109,49 @@ void permute(std::vector<Value>& values, std::size_t width, std::vector<std::int
   }
 }
 
-/// An array that owns the memory of a vector: VTK gives it back when the last array that shares it
-/// is gone.
-template <typename Array, typename Value>
-vtkSmartPointer<vtkDataArray> adopt(std::vector<Value>& values, std::size_t width)
+/// The textures that a block uses: the rows at which they begin, in order.
+struct BlockTextures
 {
-  // Never destroyed: arrays may be gone later than what is static.
-  static std::mutex& mutex = *new std::mutex;
-  static auto& adopted = *new std::unordered_map<void*, std::vector<Value>>;
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(TextureTableArray);
-  array->SetNumberOfComponents(static_cast<int>(width));
-  const std::lock_guard<std::mutex> lock(mutex);
-  std::vector<Value>& kept = adopted[values.data()];
-  kept = std::move(values);
-  array->SetArray(kept.data(), static_cast<vtkIdType>(kept.size()), 0,
-    vtkAbstractArray::VTK_DATA_ARRAY_USER_DEFINED);
-  array->SetArrayFreeFunction(
-    [](void* memory)
-    {
-      const std::lock_guard<std::mutex> whileErased(mutex);
-      adopted.erase(memory);
-    });
-  return array;
-}
+  std::vector<std::int32_t> firsts;
+  std::size_t tuples = 0;
+};
 
-template <typename Array, typename Value>
-vtkSmartPointer<vtkDataArray> takeTextures(
-  std::vector<Value>& values, std::size_t width, TextureSelection& selection)
-{
-  if (values.empty() || selection.tuples() * width != values.size())
-  {
-    return copyTextures<Array>(values, width, selection);
-  }
-  permute(values, width, selection.takePlaces());
-  return adopt<Array>(values, width);
-}
-
-/// @param isLast no other block needs the table
-vtkSmartPointer<vtkDataArray> makeTable(
-  EncodedTable& table, TextureSelection& selection, bool isLast)
+/// A view of each block's textures in one table, which is made of `values`; block after block, so
+/// that mergeParticles() can join them.
+template <typename Value>
+std::vector<vtkSmartPointer<vtkDataArray>> shareTable(const std::vector<Value>& values,
+  const EncodedTable& table, const std::vector<BlockTextures>& blocks)
 {
   const std::size_t width = table.valuesPerTuple();
-  const bool take = isLast && !table.isPacked();
-  if (table.encoding == Encoding::UInt8Gamma2)
+  std::size_t tuples = 0;
+  for (const BlockTextures& block : blocks)
   {
-    return take ? takeTextures<vtkUnsignedCharArray>(table.bytes, width, selection)
-                : copyTextures<vtkUnsignedCharArray>(table.bytes, width, selection);
+    tuples += block.tuples;
   }
-  return take ? takeTextures<vtkFloatArray>(table.floats, width, selection)
-              : copyTextures<vtkFloatArray>(table.floats, width, selection);
+  auto shared = std::make_shared<std::vector<Value>>();
+  shared->reserve(tuples * width);
+  for (const BlockTextures& block : blocks)
+  {
+    for (const std::int32_t first : block.firsts)
+    {
+      const Value* texture = values.data() + static_cast<std::size_t>(first) * width;
+      shared->insert(shared->end(), texture, texture + table.tuplesAt(first) * width);
+    }
+  }
+  std::vector<vtkSmartPointer<vtkDataArray>> views;
+  std::size_t first = 0;
+  for (const BlockTextures& block : blocks)
+  {
+    views.push_back(viewTable(shared, first, block.tuples, static_cast<int>(width)));
+    first += block.tuples;
+  }
+  return views;
 }
 
+/// Adds means and rows to a block.
 /// @param receivers of the block's points
-void attachToBlock(vtkPointSet* block, const std::uint32_t* receivers, BakeResult& result,
-  bool isLast, const OcclusionParameters& parameters)
+void attachToPoints(vtkPointSet* block, const std::uint32_t* receivers, const BakeResult& result,
+  TextureSelection& selection)
 {
   const vtkIdType points = block->GetNumberOfPoints();
   vtkNew<vtkFloatArray> mean;
@@ -191,23 +159,36 @@ void attachToBlock(vtkPointSet* block, const std::uint32_t* receivers, BakeResul
   mean->SetNumberOfTuples(points);
   std::transform(receivers, receivers + points, mean->GetPointer(0),
     [&](std::uint32_t i) { return i == NoReceiver ? 0.0f : result.mean[i]; });
-
-  TextureSelection selection(result.table);
   vtkNew<vtkIntArray> index;
   index->SetName(TextureIndexArray);
   index->SetNumberOfTuples(points);
   std::transform(receivers, receivers + points, index->GetPointer(0),
     [&](std::uint32_t i) { return i == NoReceiver ? -1 : selection.use(result.rowOf[i]); });
-
   block->GetPointData()->AddArray(mean);
   block->GetPointData()->AddArray(index);
-  block->GetFieldData()->AddArray(makeTable(result.table, selection, isLast));
+}
+
+void attachTable(vtkPointSet* block, vtkDataArray* table, const PackedFormat& format,
+  const OcclusionParameters& parameters)
+{
+  block->GetFieldData()->AddArray(table);
   block->GetFieldData()->RemoveArray(TextureBasisArray); // of an earlier bake
-  if (const auto basis = basisArrayOf(result.table.packed))
+  if (const auto basis = basisArrayOf(format))
   {
     block->GetFieldData()->AddArray(basis);
   }
   parameters.toFieldData(block->GetFieldData());
+}
+
+/// The table of a block that uses all of it, as it is but for the order.
+template <typename Value>
+vtkSmartPointer<vtkDataArray> takeTable(
+  std::vector<Value>& values, std::size_t width, std::vector<std::int32_t> places)
+{
+  const std::size_t tuples = places.size();
+  permute(values, width, std::move(places));
+  return viewTable(
+    std::make_shared<std::vector<Value>>(std::move(values)), 0, tuples, static_cast<int>(width));
 }
 }
 
@@ -229,7 +210,7 @@ std::vector<vtkPointSet*> particleBlocks(vtkDataObject* data)
 }
 
 std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
-  const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
+  const RadiusSettings& settings, std::string& error, const FrameChoice& frame,
   const ProcessGroup& group)
 {
   if (blocks.size() == 1)
@@ -246,11 +227,35 @@ void attachBake(const std::vector<vtkPointSet*>& blocks, const PointReceivers& r
 {
   OcclusionParameters described = parameters;
   describeFormat(result.table.packed, described);
+  EncodedTable& table = result.table;
+  const bool areBytes = table.encoding == Encoding::UInt8Gamma2;
+  std::vector<BlockTextures> textures;
+  std::vector<vtkSmartPointer<vtkDataArray>> tables;
   const std::uint32_t* next = receivers.data();
   for (vtkPointSet* block : blocks)
   {
-    attachToBlock(block, next, result, block == blocks.back(), described);
+    TextureSelection selection(table);
+    attachToPoints(block, next, result, selection);
     next += block->GetNumberOfPoints();
+    const bool usesAll = selection.tuples() == static_cast<std::size_t>(table.rows);
+    if (blocks.size() == 1 && !table.isPacked() && usesAll)
+    {
+      const std::size_t width = table.valuesPerTuple();
+      tables.push_back(areBytes ? takeTable(table.bytes, width, selection.takePlaces())
+                                : takeTable(table.floats, width, selection.takePlaces()));
+      break;
+    }
+    const std::size_t tuples = selection.tuples();
+    textures.push_back({ selection.takeFirsts(), tuples });
+  }
+  if (tables.empty())
+  {
+    tables = areBytes ? shareTable(table.bytes, table, textures)
+                      : shareTable(table.floats, table, textures);
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+  {
+    attachTable(blocks[i], tables[i], table.packed, described);
   }
 }
 }

@@ -27,7 +27,7 @@ namespace po
 /// Nothing, and a message in `error`, under the conditions of readSphereCloud, which says what
 /// `frame` and `group` are.
 [[nodiscard]] std::optional<ParticleInput> readBlocks(const std::vector<vtkPointSet*>& blocks,
-  const RadiusSettings& settings, std::string& error, const SphereCloud* frame,
+  const RadiusSettings& settings, std::string& error, const FrameChoice& frame,
   const ProcessGroup& group);
 
 /// Of each point, through the blocks in order, its particle's number among those of a BakeResult.

@@ -43,7 +43,7 @@ void requireMemory(double bytes, std::size_t particles)
     throw std::runtime_error("Baking " + std::to_string(particles) + " particles needs up to " +
       inGigabytes(bytes) + " of memory, but " + inGigabytes(available) +
       " are free: lower TextureResolution, choose the Method Embree or the Encoding "
-      "UInt8Gamma2, or bake fewer particles.");
+      "UInt8Gamma2, turn ReuseUnchanged off, or bake fewer particles.");
   }
 }
 }

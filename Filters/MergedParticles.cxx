@@ -5,6 +5,7 @@
 #include "Blocks.h"
 #include "Gamma2.h"
 #include "OcclusionParameters.h"
+#include "TableViews.h"
 
 #include "vtkAppendPolyData.h"
 #include "vtkFieldData.h"
@@ -14,7 +15,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <limits>
@@ -93,6 +93,70 @@ bool sameFormat(const std::vector<Part>& parts, const TableFormat& format)
     [&](const Part& part) { return !part.baked.table || part.format == format; });
 }
 
+std::vector<vtkDataArray*> tablesOf(const std::vector<Part>& parts)
+{
+  std::vector<vtkDataArray*> tables;
+  for (const Part& part : parts)
+  {
+    if (part.baked.table)
+    {
+      tables.push_back(part.baked.table);
+    }
+  }
+  return tables;
+}
+
+/// Throws std::runtime_error if the tables do not fit each other.
+void requireOneTable(const std::vector<Part>& parts, int resolution)
+{
+  vtkIdType rows = 0;
+  for (const Part& part : parts)
+  {
+    if (part.baked.table && part.format.resolution != resolution)
+    {
+      refuseBakedArray(TextureTableArray, "has another resolution in some blocks");
+    }
+    rows += part.baked.table ? part.baked.table->GetNumberOfTuples() : 0;
+  }
+  if (rows > std::numeric_limits<std::int32_t>::max())
+  {
+    refuseBakedArray(
+      TextureTableArray, "has more rows than 32-bit indices reach when blocks are merged");
+  }
+}
+
+/// Tables of one type, one after the other; at least one.
+vtkSmartPointer<vtkDataArray> joinTables(const std::vector<vtkDataArray*>& tables)
+{
+  if (auto joined = joinViews(tables))
+  {
+    return joined;
+  }
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(tables.front()->NewInstance());
+  copy->SetName(TextureTableArray);
+  copy->SetNumberOfComponents(tables.front()->GetNumberOfComponents());
+  for (vtkDataArray* table : tables)
+  {
+    copy->InsertTuples(copy->GetNumberOfTuples(), table->GetNumberOfTuples(), 0, table);
+  }
+  return copy;
+}
+
+/// The rows of all points in the joined table.
+vtkSmartPointer<vtkIntArray> joinRows(const std::vector<Part>& parts, vtkIdType points)
+{
+  auto rows = vtkSmartPointer<vtkIntArray>::New();
+  rows->SetName(TextureIndexArray);
+  rows->Allocate(points);
+  vtkIdType offset = 0;
+  for (const Part& part : parts)
+  {
+    appendRows(part, static_cast<std::int32_t>(offset), rows);
+    offset += part.baked.table ? part.baked.table->GetNumberOfTuples() : 0;
+  }
+  return rows;
+}
+
 /// Puts the tables of all parts one after the other; throws std::runtime_error if they do not fit.
 void attachMergedTable(std::vector<Part>& parts, vtkFieldData* parameters, vtkPolyData* merged)
 {
@@ -102,44 +166,18 @@ void attachMergedTable(std::vector<Part>& parts, vtkFieldData* parameters, vtkPo
   {
     return;
   }
-  const bool copyAsIs = sameFormat(parts, first->format);
-  if (!copyAsIs)
+  requireOneTable(parts, first->format.resolution);
+  const bool asTheyAre = sameFormat(parts, first->format);
+  if (!asTheyAre)
   {
     std::for_each(parts.begin(), parts.end(), decode);
-  }
-  vtkSmartPointer<vtkDataArray> table = copyAsIs && first->format.bytes
-    ? vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkUnsignedCharArray>::New())
-    : vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkFloatArray>::New());
-  table->SetName(TextureTableArray);
-  table->SetNumberOfComponents(first->baked.table->GetNumberOfComponents());
-  vtkNew<vtkIntArray> rows;
-  rows->SetName(TextureIndexArray);
-  rows->Allocate(merged->GetNumberOfPoints());
-  for (const Part& part : parts)
-  {
-    const vtkIdType offset = table->GetNumberOfTuples();
-    if (part.baked.table)
-    {
-      if (part.format.resolution != first->format.resolution)
-      {
-        refuseBakedArray(TextureTableArray, "has another resolution in some blocks");
-      }
-      const vtkSmartPointer<vtkDataArray>& source = part.baked.table;
-      if (offset + source->GetNumberOfTuples() > std::numeric_limits<std::int32_t>::max())
-      {
-        refuseBakedArray(
-          TextureTableArray, "has more rows than 32-bit indices reach when blocks are merged");
-      }
-      table->InsertTuples(offset, source->GetNumberOfTuples(), 0, source);
-    }
-    appendRows(part, static_cast<std::int32_t>(offset), rows);
   }
   OcclusionParameters description = OcclusionParameters::fromFieldData(parameters);
   if (std::any_of(parts.begin(), parts.end(), [](const Part& p) { return p.baked.hasLight; }))
   {
     description.set(BakedLightParameter, true);
   }
-  if (!copyAsIs)
+  if (!asTheyAre)
   {
     description.set("encoding", Float32Linear);
     description.set("storage", FullStorage);
@@ -149,8 +187,8 @@ void attachMergedTable(std::vector<Part>& parts, vtkFieldData* parameters, vtkPo
     merged->GetFieldData()->AddArray(basis);
   }
   description.toFieldData(merged->GetFieldData());
-  merged->GetFieldData()->AddArray(table);
-  merged->GetPointData()->AddArray(rows);
+  merged->GetFieldData()->AddArray(joinTables(tablesOf(parts)));
+  merged->GetPointData()->AddArray(joinRows(parts, merged->GetNumberOfPoints()));
 }
 
 vtkSmartPointer<vtkPolyData> appendPoints(const std::vector<vtkPointSet*>& blocks)

@@ -19,11 +19,12 @@ namespace po
 /// One poly data, without cells, of the points of all blocks. Point arrays that are not in all
 /// blocks are dropped, as vtkAppendPolyData does.
 ///
-/// Texture tables are put one after the other, and the points' rows follow. Tables of one encoding
-/// and maximum are copied; where maxima or encodings differ, or textures have different
-/// lengths and another basis, they are decoded to float32. A block
-/// without textures gets row -1. Where the resolutions differ, or a block's arrays are wrong, there
-/// are no textures in the result, and `warning` says why.
+/// Texture tables are put one after the other, and the points' rows follow. Those of the blocks of
+/// one bake, in their order, lie so in memory, which the result then shares (see TableViews.h).
+/// Others of one encoding and maximum are copied; where maxima or encodings differ, or textures
+/// have different lengths and another basis, they are decoded to float32. A block without textures
+/// gets row -1. Where the resolutions differ, or a block's arrays are wrong, there are no textures
+/// in the result, and `warning` says why.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT vtkSmartPointer<vtkPolyData> mergeParticles(
   const std::vector<vtkPointSet*>& blocks, std::string& warning);
 }

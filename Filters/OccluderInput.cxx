@@ -174,7 +174,7 @@ void readSpheres(const std::vector<vtkPointSet*>& blocks, const RadiusSettings& 
   const SphereCloud& particles, const ProcessGroup& group, OccluderInput& input)
 {
   std::string error;
-  std::optional<ParticleInput> spheres = readBlocks(blocks, radii, error, &particles, group);
+  std::optional<ParticleInput> spheres = readBlocks(blocks, radii, error, { &particles }, group);
   if (!spheres)
   {
     throw std::invalid_argument(PortName + error);

@@ -21,7 +21,7 @@ Vec3d pointAt(vtkPointSet& points, std::size_t i)
 }
 
 std::optional<ParticleInput> readSphereCloud(vtkPointSet& points, const RadiusSettings& settings,
-  std::string& error, const SphereCloud* frame, const ProcessGroup& group)
+  std::string& error, const FrameChoice& frame, const ProcessGroup& group)
 {
   error.clear();
   const auto count = static_cast<std::size_t>(points.GetNumberOfPoints());
@@ -52,7 +52,8 @@ std::optional<ParticleInput> readSphereCloud(vtkPointSet& points, const RadiusSe
         0;
     };
   }
-  SphereCloud cloud = frame ? makeSphereCloudLike(*frame, source) : makeSphereCloud(source, group);
+  SphereCloud cloud = frame.like ? makeSphereCloudLike(*frame.like, source)
+                                 : makeSphereCloud(source, group, frame.fit);
   if (group.sum(std::uint64_t(cloud.spheres.size())) == 0)
   {
     error = "No particle is usable. " + describe(cloud.rejected.summed(group));

@@ -24,6 +24,13 @@ struct ParticleInput
   RadiusSettings radii; ///< as resolveRadii gives them
 };
 
+/// The local coordinates that particles are put into.
+struct FrameChoice
+{
+  const SphereCloud* like = nullptr; ///< those of this cloud; null: of all particles of the group
+  FrameFit fit = FrameFit::Exact;    ///< how these follow from the particles
+};
+
 /// The usable particles of `points` as spheres; sourceIds are point ids, ghosts the duplicate
 /// points of vtkGhostType.
 ///
@@ -31,12 +38,10 @@ struct ParticleInput
 /// are no points, the array is missing, not numeric, of the wrong length or number of components, a
 /// parameter is out of range, no radius can be estimated, or no particle at all is usable: both of
 /// all processes together. Particles that are left out are counted in SphereCloud::rejected.
-/// @param frame the spheres are put into the local coordinates of that cloud, or, if null, into
-/// those of all particles of the group
 /// @param group the processes whose particles make up one set; all must call
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::optional<ParticleInput> readSphereCloud(
   vtkPointSet& points, const RadiusSettings& settings, std::string& error,
-  const SphereCloud* frame = nullptr, const ProcessGroup& group = ProcessGroup::alone());
+  const FrameChoice& frame = {}, const ProcessGroup& group = ProcessGroup::alone());
 
 /// One sentence on the particles that were left out and why; empty if there are none.
 [[nodiscard]] PARTICLEOCCLUSIONFILTERS_EXPORT std::string describe(

@@ -44,6 +44,13 @@ void announce(vtkAlgorithm* algorithm, double share, const char* phase)
 }
 }
 
+void vtkSphereAmbientOcclusion::Internals::Reset()
+{
+  this->Report = {};
+  this->Seconds = 0;
+  this->RadiusUsed.clear();
+}
+
 void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   const po::ProcessGroup& group, const std::vector<vtkPointSet*>& blocks,
   vtkDataObject* occluderData)
@@ -61,8 +68,12 @@ void vtkSphereAmbientOcclusion::Internals::Bake(vtkSphereAmbientOcclusion* self,
   po::Progress progress(reportTo(self, progress)); // which is called later
   const int method = po::chooseMethod(self->Method, input.task, group);
   std::string warning;
-  po::BakeResult result =
-    po::bakeOrLoad(po::cacheOf(*self), method, input.task, group, progress, this->Report, warning);
+  if (!po::BakeReuse::suits(method, input.task))
+  {
+    this->Reuse = {}; // its memory may be needed
+  }
+  po::BakeResult result = po::bakeOrLoad(
+    po::cacheOf(*self), method, input.task, group, progress, this->Report, this->Reuse, warning);
   if (!warning.empty())
   {
     vtkWarningWithObjectMacro(self, << warning);
@@ -145,7 +156,7 @@ int vtkSphereAmbientOcclusion::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   const auto start = std::chrono::steady_clock::now();
-  *this->Impl = Internals();
+  this->Impl->Reset();
   this->SetErrorCode(vtkErrorCode::NoError);
   vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
   vtkDataObject* output = vtkDataObject::GetData(outputVector);
@@ -162,7 +173,7 @@ int vtkSphereAmbientOcclusion::RequestData(
   this->SetProgressText(nullptr);
   if (!baked)
   {
-    *this->Impl = Internals();
+    this->Impl->Reset();
     output->ShallowCopy(input); // without what some blocks may have got before the fault
     this->SetErrorCode(vtkErrorCode::UserError);
     if (group.rank() == 0)
@@ -219,6 +230,7 @@ void vtkSphereAmbientOcclusion::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "StorageError: " << this->StorageError << "\n"
      << indent << "Seed: " << this->Seed << "\n"
      << indent << "IdArray: " << (this->IdArray ? this->IdArray : "(automatic)") << "\n"
+     << indent << "ReuseUnchanged: " << this->ReuseUnchanged << "\n"
      << indent << "OutOfCore: " << this->OutOfCore << "\n"
      << indent << "UseCache: " << this->UseCache << "\n"
      << indent << "CacheDirectory: " << (this->CacheDirectory ? this->CacheDirectory : "") << "\n"

@@ -154,8 +154,8 @@ public:
   /// How visibility is found.
   enum MethodType
   {
-    Automatic = 0, ///< Sweep; Embree if a mesh occludes, MaximumDistance is at most two mean radii,
-                   ///< or the memory for Sweep is not there
+    Automatic = 0, ///< Sweep; Embree if a mesh occludes, MaximumDistance is at most two mean radii
+                   ///< or goes with ReuseUnchanged, or the memory for Sweep is not there
     Sweep = 1,     ///< exact visibility of all particles along directions that they share, no rays
     Embree = 2,    ///< along such directions too: near particles exactly, by few rays what is far
     Reference = 3  ///< jittered rays from every texel, one occlusion ray a sample
@@ -348,6 +348,23 @@ public:
 
   ///@{
   /**
+   * Keep the textures of an execution, and at the next one bake only particles that were moved or
+   * are new, and those within MaximumDistance of where a sphere or triangle was moved, was added or
+   * is gone [off]. The others get the bits that a bake would give. It needs a MaximumDistance, and
+   * is for Embree, which Automatic then takes, and for Reference without a TargetError; else it
+   * does nothing. Up to 8 bytes a texel are kept in memory, of every particle that is partly lit.
+   *
+   * The frame of floats, which else is the middle of the set and its mean radius, is rounded to
+   * powers of two, so that it mostly stays: when it does not, all are baked. So they are when
+   * parameters change, but for those of encoding, storage and dilation.
+   */
+  vtkSetMacro(ReuseUnchanged, bool);
+  vtkGetMacro(ReuseUnchanged, bool);
+  vtkBooleanMacro(ReuseUnchanged, bool);
+  ///@}
+
+  ///@{
+  /**
    * Sweep keeps what it sees of the particles in a temporary file, instead of some KiB of memory a
    * particle [off]. Where memory would not do it does so anyway, and the textures have the same
    * bits. The file is in the folder that TMPDIR names, else /tmp; at the default resolution and
@@ -399,6 +416,7 @@ public:
   vtkIdType GetNumberOfTextures();         ///< distinct ones: rows of the table
   vtkIdType GetNumberOfTextureBytes();     ///< size of the table
   vtkIdType GetNumberOfParticlesRefined(); ///< by rays: of Sweep with TargetError
+  vtkIdType GetNumberOfParticlesReused();  ///< of the execution before, with ReuseUnchanged
   /// Of Sweep; a visit is one particle in one direction.
   vtkIdType GetNumberOfVisitsClosed();    ///< spared: buried under a particle in front
   vtkIdType GetNumberOfVisitsNeverSeen(); ///< spared: no direction had shown the particle
@@ -465,6 +483,7 @@ private:
   double StorageError = 0.01;
   int Seed = 1;
   char* IdArray = nullptr;
+  bool ReuseUnchanged = false;
   bool OutOfCore = false;
   bool UseCache = false;
   char* CacheDirectory = nullptr;

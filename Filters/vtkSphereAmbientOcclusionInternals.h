@@ -2,7 +2,7 @@
 #ifndef vtkSphereAmbientOcclusionInternals_h
 #define vtkSphereAmbientOcclusionInternals_h
 
-#include "BakeMethods.h"
+#include "BakeReuse.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <string>
@@ -16,13 +16,17 @@ namespace po
 struct BakeInput;
 }
 
-/// One execution.
+/// The last execution.
 struct vtkSphereAmbientOcclusion::Internals
 {
   po::BakeReport Report;
   double Seconds = 0;
   std::string RadiusUsed;
   std::string Estimate;
+  po::BakeReuse Reuse; ///< what is left of it for the next one
+
+  /// Forgets what is reported of it.
+  void Reset();
 
   /// Throws what its steps throw, and po::WorkStopped when this or another process was aborted.
   void Bake(vtkSphereAmbientOcclusion* self, const po::ProcessGroup& group,

@@ -82,6 +82,11 @@ vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesRefined()
   return static_cast<vtkIdType>(this->Impl->Report.refined);
 }
 
+vtkIdType vtkSphereAmbientOcclusion::GetNumberOfParticlesReused()
+{
+  return static_cast<vtkIdType>(this->Impl->Report.reused);
+}
+
 vtkIdType vtkSphereAmbientOcclusion::GetNumberOfVisitsClosed()
 {
   return static_cast<vtkIdType>(this->Impl->Report.counters.spheresClosed);

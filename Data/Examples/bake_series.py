@@ -7,7 +7,9 @@ Steps that have a texture file newer than their data are skipped: what was inter
 A step that fails is reported and the others go on; the script then ends with code 1. One process: several
 can each take a part of the files. A file that holds several times gets one texture file a time.
 
-"Load Occlusion Textures (EXR)" puts the textures back onto a step. With --cache, the filter "Sphere Ambient
+"Load Occlusion Textures (EXR)" puts the textures back onto a step. With --set ReuseUnchanged=1
+MaximumDistance=D (D in the units of the data) particles near which nothing has moved keep their textures
+from the step before. With --cache, the filter "Sphere Ambient
 Occlusion" with the same parameters, "Use Cache" and that folder finds each step there.
 """
 import argparse
@@ -59,26 +61,40 @@ def is_done(options, path, target):
     return not options.again and os.path.exists(target) and os.path.getmtime(target) >= os.path.getmtime(path)
 
 
-def bake(reader, instant, target, options, chosen):
-    """Returns the number of particles; raises RuntimeError where there is no bake."""
-    if instant is not None:
-        GetAnimationScene().AnimationTime = instant
-    baked = SphereAmbientOcclusion(Input=reader, **chosen)
-    try:
-        baked.UpdatePipeline(instant) if instant is not None else baked.UpdatePipeline()
-        baked.UpdatePropertyInformation()
-        particles = baked.GetPropertyValue("NumberOfParticles")
+class Series:
+    """One filter for all steps, so that it can reuse the textures of the step before."""
+
+    def __init__(self, chosen):
+        self.chosen = chosen
+        self.baked = None
+
+    def attach(self, reader):
+        if self.baked is None:
+            self.baked = SphereAmbientOcclusion(Input=reader, **self.chosen)
+            return
+        before = self.baked.Input
+        self.baked.Input = reader
+        if before != reader:
+            Delete(before)
+
+    def bake(self, reader, instant, target, precision):
+        """Returns what was baked, in words; raises RuntimeError where there is no bake."""
+        if instant is not None:
+            GetAnimationScene().AnimationTime = instant
+        self.attach(reader)
+        self.baked.UpdatePipeline(instant) if instant is not None else self.baked.UpdatePipeline()
+        self.baked.UpdatePropertyInformation()
+        particles = self.baked.GetPropertyValue("NumberOfParticles")
         if not particles:
             raise RuntimeError("it was not baked; the message above says why")
-        SaveData(target, baked, Precision=options.precision)
+        SaveData(target, self.baked, Precision=precision)
         if not os.path.exists(target):
             raise RuntimeError("its textures were not written; the message above says why")
-        return particles
-    finally:
-        Delete(baked)
+        reused = self.baked.GetPropertyValue("NumberOfParticlesReused")
+        return f"{particles} particles" + (f", {reused} as before" if reused else "")
 
 
-def bake_file(path, options, chosen, report):
+def bake_file(path, options, series, report):
     """Bakes all times of a file; returns the number of failures."""
     failures = 0
     try:
@@ -99,19 +115,18 @@ def bake_file(path, options, chosen, report):
             continue
         start = time.time()
         try:
-            particles = bake(reader, instant, target, options, chosen)
-            report(target, f"{particles} particles, {time.time() - start:.1f} s")
+            baked = series.bake(reader, instant, target, options.precision)
+            report(target, f"{baked}, {time.time() - start:.1f} s")
         except (RuntimeError, ValueError, AttributeError) as error:
             report(target, f"failed: {error}")
             failures += 1
-    Delete(reader)
     return failures
 
 
 def main(arguments):
     options = parse(arguments)
     plugin.load(globals())
-    chosen = properties(options)
+    series = Series(properties(options))
     start = time.time()
     failures = 0
     for index, path in enumerate(options.files):
@@ -119,7 +134,7 @@ def main(arguments):
             share = (index + 1) / len(options.files)
             left = (time.time() - start) * (1 - share) / share
             print(f"[{index + 1}/{len(options.files)}] {name}: {what}; {left:.0f} s left", flush=True)
-        failures += bake_file(path, options, chosen, report)
+        failures += bake_file(path, options, series, report)
     if failures:
         sys.exit(f"{failures} steps were not baked.")
 

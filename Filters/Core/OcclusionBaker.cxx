@@ -182,6 +182,45 @@ SphereSet joined(SphereCloud& cloud, const Occluders& occluders)
   return SphereSet(std::move(spheres), std::move(centers));
 }
 
+/// @param kept null: there are no other textures, and none are kept
+BakeResult bakeBetween(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress,
+  TextureMemory* kept)
+{
+  BakeResult result;
+  TextureCollector collector(settings, kept ? kept->size() : particles.size());
+  std::optional<BakedLight> light;
+  if (settings.light)
+  {
+    light.emplace(scene, particles, settings, progress);
+    if (progress.aborted())
+    {
+      result.aborted = true;
+      return result; // other processes may be amid the light: nothing more is exchanged with them
+    }
+  }
+  const auto collect = [&](const RawTextures& textures) { collector.add(textures); };
+  const auto take = [&](const RawTextures& raw)
+  {
+    const RawTextures lit = light ? light->addTo(raw, progress) : raw;
+    kept ? kept->add(lit, collect) : collect(lit);
+  };
+  estimator.estimate(scene, particles, settings, progress, take, result.counters);
+  result.counters.rays += light ? light->rays() : 0;
+  result.aborted = progress.aborted();
+  if (!result.aborted)
+  {
+    double error = estimator.estimatedError();
+    if (kept)
+    {
+      kept->finish(error, collect);
+      error = kept->estimatedError();
+    }
+    collector.finish(result, SureShareOfError * error, scene.group);
+  }
+  return result;
+}
+
 /// Hierarchies of Embree, the spheres, rows and means; measured below 300 bytes a sphere.
 constexpr double BytesPerSphere = 300;
 }
@@ -286,28 +325,13 @@ BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,
 BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& particles,
   const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress)
 {
-  BakeResult result;
-  TextureCollector collector(settings, particles.size());
-  std::optional<BakedLight> light;
-  if (settings.light)
-  {
-    light.emplace(scene, particles, settings, progress);
-    if (progress.aborted())
-    {
-      result.aborted = true;
-      return result; // other processes may be amid the light: nothing more is exchanged with them
-    }
-  }
-  estimator.estimate(
-    scene, particles, settings, progress,
-    [&](const RawTextures& raw) { collector.add(light ? light->addTo(raw, progress) : raw); },
-    result.counters);
-  result.counters.rays += light ? light->rays() : 0;
-  result.aborted = progress.aborted();
-  if (!result.aborted)
-  {
-    collector.finish(result, SureShareOfError * estimator.estimatedError(), scene.group);
-  }
-  return result;
+  return bakeBetween(scene, particles, settings, estimator, progress, nullptr);
+}
+
+BakeResult bakeOcclusion(const BakeScene& scene, const std::vector<unsigned>& particles,
+  const BakeSettings& settings, const OcclusionEstimator& estimator, Progress& progress,
+  TextureMemory& kept)
+{
+  return bakeBetween(scene, particles, settings, estimator, progress, &kept);
 }
 }

@@ -3,6 +3,7 @@
 #define po_OcclusionBaker_h
 
 #include "OcclusionEstimator.h"
+#include "TextureMemory.h"
 #include "TextureTable.h"
 
 #include <cstddef>
@@ -42,6 +43,12 @@ inline constexpr double SureShareOfError = 1.0 / 3;
 [[nodiscard]] BakeResult bakeOcclusion(const BakeScene& scene,
   const std::vector<unsigned>& particles, const BakeSettings& settings,
   const OcclusionEstimator& estimator, Progress& progress);
+
+/// The same, with the textures of particles that were baked before.
+/// @param kept has begun; takes up what is baked, and holds the textures between which that belongs
+[[nodiscard]] BakeResult bakeOcclusion(const BakeScene& scene,
+  const std::vector<unsigned>& particles, const BakeSettings& settings,
+  const OcclusionEstimator& estimator, Progress& progress, TextureMemory& kept);
 
 /// The same for all particles.
 [[nodiscard]] BakeResult bakeOcclusion(const BakeScene& scene, const BakeSettings& settings,

@@ -72,14 +72,27 @@ void boxBounds(const RTCBoundsFunctionArguments* arguments)
 /// What Embree calls back with: a box of a brick stands for some spheres of the set.
 struct Query
 {
-  const SphereSet* spheres;
-  unsigned id;
-  const SphereBoxes* boxes; ///< that are being searched
-  Vec3f center;             ///< relative to their brick
-  float radius;             ///< around it
+  static constexpr unsigned NoId = std::numeric_limits<unsigned>::max();
 
-  /// Calls action(id) for the other spheres of a box that come within the radius, and maybe for
-  /// some that just do not.
+  Query(const SphereSet& set, unsigned number)
+    : Query(set, number, set.center(number), set.spheres()[number].radius)
+  {
+  }
+  Query(const SphereSet& set, const Sphere& sphere)
+    : Query(set, NoId, sphere.center().as<double>(), sphere.radius)
+  {
+  }
+
+  const SphereSet* spheres;
+  unsigned id; ///< in the set, if it is one of these
+  Vec3d center;
+  float radius;
+  const SphereBoxes* boxes = nullptr; ///< that are being searched
+  Vec3f place;                        ///< the centre relative to their brick
+  float within = 0;                   ///< distance from there at which others begin
+
+  /// Calls action(id) for the other spheres of a box that come within that distance, and maybe
+  /// for some that just do not.
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
@@ -88,12 +101,12 @@ struct Query
     std::array<unsigned, SphereBoxes::Spheres> near{};
     std::size_t count = 0;
     boxes->forEachIn(arguments->primID,
-      [&](unsigned place)
+      [&](unsigned other)
       {
-        const Sphere& sphere = boxes->brick->spheres[place];
-        const Vec3f offset = sphere.center() - center;
-        const float reach = (radius + sphere.radius) * (1 + 1e-5f);
-        near[count] = place;
+        const Sphere& sphere = boxes->brick->spheres[other];
+        const Vec3f offset = sphere.center() - place;
+        const float reach = (within + sphere.radius) * (1 + 1e-5f);
+        near[count] = other;
         count += dot(offset, offset) <= reach * reach ? 1 : 0;
       });
     for (std::size_t i = 0; i < count; ++i)
@@ -105,16 +118,23 @@ struct Query
       }
     }
   }
-  [[nodiscard]] Vec3d offsetTo(unsigned other) const
+  [[nodiscard]] Vec3d offsetTo(unsigned other) const { return spheres->center(other) - center; }
+
+private:
+  Query(const SphereSet& set, unsigned number, Vec3d place, float size)
+    : spheres(&set)
+    , id(number)
+    , center(place)
+    , radius(size)
   {
-    return spheres->center(other) - spheres->center(id);
   }
 };
 
 struct OverlapQuery : Query
 {
-  Overlaps* result;
-  bool outOfMemory; ///< Embree would swallow the exception, and overlaps would be missing
+  using Query::Query;
+  Overlaps* result = nullptr;
+  bool outOfMemory = false; ///< Embree would swallow the exception, and overlaps would be missing
 };
 
 /// How a sphere of radius `radius`, at `d` from one of radius r, cuts the surface of that one. A
@@ -154,10 +174,8 @@ bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
   try
   {
     query->forOthers(arguments,
-      [&](unsigned other)
-      {
-        addOverlap(
-          spheres[query->id].radius, query->offsetTo(other), spheres[other].radius, *query->result);
+      [&](unsigned other) {
+        addOverlap(query->radius, query->offsetTo(other), spheres[other].radius, *query->result);
       });
   }
   catch (const std::bad_alloc&)
@@ -169,16 +187,16 @@ bool visitOverlaps(RTCPointQueryFunctionArguments* arguments)
 
 float gapTo(const Query& query, unsigned other)
 {
-  const std::vector<Sphere>& spheres = query.spheres->spheres();
-  return length(query.offsetTo(other).as<float>()) - spheres[query.id].radius -
-    spheres[other].radius;
+  return length(query.offsetTo(other).as<float>()) - query.radius -
+    query.spheres->spheres()[other].radius;
 }
 
 struct NearQuery : Query
 {
-  float reach;
-  std::size_t limit;
-  std::vector<Neighbour>* nearest; ///< a heap, the farthest on top
+  using Query::Query;
+  float reach = 0;
+  std::size_t limit = 0;
+  std::vector<Neighbour>* nearest = nullptr; ///< a heap, the farthest on top
 };
 
 /// Keeps a sphere if it is among the nearest.
@@ -209,8 +227,9 @@ bool visitNear(RTCPointQueryFunctionArguments* arguments)
 
 struct AnyQuery : Query
 {
-  float reach;
-  bool isFound;
+  using Query::Query;
+  float reach = 0;
+  bool isFound = false;
 };
 
 bool visitAny(RTCPointQueryFunctionArguments* arguments)
@@ -268,33 +287,30 @@ void OverlapFinder::addBoxes(const Brick& brick)
   commitScene(device_.get(), scenes_.back(), "building the search structure for overlaps");
 }
 
-/// Calls visit for all spheres whose box comes within `radius` of the centre of sphere `id`.
+/// Calls visit for all spheres whose box comes within `reach` of the surface of the query's sphere.
 template <typename Specific>
-void OverlapFinder::search(
-  unsigned id, float radius, RTCPointQueryFunction visit, Specific& query) const
+void OverlapFinder::search(Specific& query, float reach, RTCPointQueryFunction visit) const
 {
-  query.spheres = spheres_;
-  query.id = id;
-  const Vec3d center = spheres_->center(id);
+  const float radius = query.radius + reach;
   for (std::size_t i = 0; i < scenes_.size(); ++i)
   {
     const Brick& brick = spheres_->bricks()[i];
     query.boxes = boxes_[i].get();
-    if (scenes_.size() > 1 && !isWithin(brick, center, radius))
+    if (scenes_.size() > 1 && !isWithin(brick, query.center, radius))
     {
       continue;
     }
-    const Vec3f place = (center - brick.origin).as<float>();
+    const Vec3f place = (query.center - brick.origin).template as<float>();
     // Rounding must not lose a box or a sphere that just comes within the radius.
     const float size = radius + std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
-    query.center = place;
-    query.radius = radius + 4 * std::numeric_limits<float>::epsilon() * size;
+    query.place = place;
+    query.within = radius + 4 * std::numeric_limits<float>::epsilon() * size;
     RTCPointQuery point;
     point.x = place.x;
     point.y = place.y;
     point.z = place.z;
     point.time = 0;
-    point.radius = query.radius;
+    point.radius = query.within;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(scenes_[i].get(), &point, &context, visit, &query);
@@ -305,8 +321,9 @@ void OverlapFinder::find(unsigned id, Overlaps& result) const
 {
   result.buried = false;
   result.caps.clear();
-  OverlapQuery query{ {}, &result, false };
-  search(id, spheres_->spheres()[id].radius, visitOverlaps, query);
+  OverlapQuery query(*spheres_, id);
+  query.result = &result;
+  search(query, 0, visitOverlaps);
   if (query.outOfMemory)
   {
     throw std::bad_alloc();
@@ -318,15 +335,27 @@ void OverlapFinder::findNear(
 {
   result.clear();
   result.reserve(std::min(limit, spheres_->size())); // so that visitNear allocates nothing
-  NearQuery query{ {}, reach, limit, &result };
-  search(id, spheres_->spheres()[id].radius + reach, visitNear, query);
+  NearQuery query(*spheres_, id);
+  query.reach = reach;
+  query.limit = limit;
+  query.nearest = &result;
+  search(query, reach, visitNear);
   std::sort_heap(result.begin(), result.end());
 }
 
 bool OverlapFinder::hasNear(unsigned id, float reach) const
 {
-  AnyQuery query{ {}, reach, false };
-  search(id, spheres_->spheres()[id].radius + reach, visitAny, query);
+  AnyQuery query(*spheres_, id);
+  query.reach = reach;
+  search(query, reach, visitAny);
+  return query.isFound;
+}
+
+bool OverlapFinder::hasNear(const Sphere& sphere, float reach) const
+{
+  AnyQuery query(*spheres_, sphere);
+  query.reach = reach;
+  search(query, reach, visitAny);
   return query.isFound;
 }
 }

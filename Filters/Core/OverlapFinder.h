@@ -66,11 +66,13 @@ public:
 
   /// Does the surface of any other sphere come within `reach` of that of sphere `id`?
   [[nodiscard]] bool hasNear(unsigned id, float reach) const;
+  /// The same for a sphere that is none of these.
+  [[nodiscard]] bool hasNear(const Sphere& sphere, float reach) const;
 
 private:
   void addBoxes(const Brick& brick);
   template <typename Specific>
-  void search(unsigned id, float radius, RTCPointQueryFunction visit, Specific& query) const;
+  void search(Specific& query, float reach, RTCPointQueryFunction visit) const;
 
   const SphereSet* spheres_;
   DeviceHandle device_;

@@ -129,7 +129,7 @@ auto identityOf(const WideSphere& s)
 }
 
 /// The curve must be the same everywhere, whatever part of the spheres is at hand.
-MortonCurve commonCurve(const std::vector<Sphere>& own, const ProcessGroup& group)
+MortonCurve commonCurve(const std::vector<Sphere>& own, FrameFit fit, const ProcessGroup& group)
 {
   double reach = 0;
   for (const Sphere& s : own)
@@ -137,7 +137,12 @@ MortonCurve commonCurve(const std::vector<Sphere>& own, const ProcessGroup& grou
     reach =
       std::max({ reach, std::abs(double(s.x)), std::abs(double(s.y)), std::abs(double(s.z)) });
   }
-  const auto half = static_cast<float>(group.largest(reach));
+  reach = group.largest(reach);
+  if (fit == FrameFit::Steady && reach > 0)
+  {
+    reach = std::exp2(std::ceil(std::log2(reach)));
+  }
+  const auto half = static_cast<float>(reach);
   return { { -half, -half, -half }, 2 * half };
 }
 
@@ -342,9 +347,10 @@ SharedSpheres share(const std::vector<Travelling>& marked, const MortonCurve& cu
 }
 
 SharedSpheres shareSpheres(std::vector<Sphere> own, const std::vector<std::uint8_t>& ghosts,
-  const Neighbourhood& neighbourhood, const ProcessGroup& group, const std::vector<Vec3d>& centers)
+  const Neighbourhood& neighbourhood, const ProcessGroup& group, const std::vector<Vec3d>& centers,
+  FrameFit fit)
 {
-  const MortonCurve curve = commonCurve(own, group);
+  const MortonCurve curve = commonCurve(own, fit, group);
   for (std::size_t i = 0; i < ghosts.size(); ++i)
   {
     own[i].radius = ghosts[i] != 0 ? -own[i].radius : own[i].radius;
@@ -364,11 +370,11 @@ SharedSpheres shareSpheres(std::vector<Sphere> own, const std::vector<std::uint8
 }
 
 Occluders shareOccluders(
-  Occluders own, const Neighbourhood& neighbourhood, const ProcessGroup& group)
+  Occluders own, const Neighbourhood& neighbourhood, const ProcessGroup& group, FrameFit fit)
 {
   Occluders all;
   SharedSpheres spheres =
-    shareSpheres(std::move(own.spheres), {}, neighbourhood, group, own.centers);
+    shareSpheres(std::move(own.spheres), {}, neighbourhood, group, own.centers, fit);
   all.spheres = std::move(spheres.spheres);
   all.centers = std::move(spheres.centers);
   if (group.size() == 1)

@@ -7,6 +7,7 @@
 #include "OccluderMesh.h"
 #include "ProcessGroup.h"
 #include "Sphere.h"
+#include "SphereCloud.h"
 
 #include <cstdint>
 #include <vector>
@@ -44,14 +45,16 @@ struct SharedSpheres
 /// @param ghosts flags by own sphere, or empty: copies of spheres that another process has. One
 /// whose original is nowhere counts as a sphere, once.
 /// @param centers of the own spheres in full, or none (see SphereSet)
+/// @param fit with Steady the others mostly keep their order when the outermost spheres move
 [[nodiscard]] SharedSpheres shareSpheres(std::vector<Sphere> own,
   const std::vector<std::uint8_t>& ghosts, const Neighbourhood& neighbourhood,
-  const ProcessGroup& group, const std::vector<Vec3d>& centers = {});
+  const ProcessGroup& group, const std::vector<Vec3d>& centers = {},
+  FrameFit fit = FrameFit::Exact);
 
 /// The spheres and triangles that only occlude, of all processes, as far as they matter to this
 /// one.
 [[nodiscard]] Occluders shareOccluders(
-  Occluders own, const Neighbourhood& neighbourhood, const ProcessGroup& group);
+  Occluders own, const Neighbourhood& neighbourhood, const ProcessGroup& group, FrameFit fit);
 }
 
 #endif

@@ -48,6 +48,12 @@ struct Extent
 
   /// Halves before adding, so that the sum of two huge coordinates stays finite.
   [[nodiscard]] Vec3d middle() const { return 0.5 * low + 0.5 * high; }
+
+  [[nodiscard]] double halfWidth() const
+  {
+    const Vec3d half = 0.5 * high - 0.5 * low;
+    return std::max({ half.x, half.y, half.z });
+  }
 };
 
 /// The mean of radii, summed as integers: exact to 2^-62 of the largest, so that neither the order
@@ -194,9 +200,20 @@ void useMedians(SphereCloud& cloud, const ParticleSource& source, const ProcessG
   cloud.scale = group.largest(medianOf(radii));
 }
 
+/// Rounds the frame to powers of two. The one of the origin is at least as large as the cloud, so
+/// that a local coordinate grows to twice what it was at most.
+void roundFrame(SphereCloud& cloud, const Extent& extent)
+{
+  cloud.scale = std::exp2(std::round(std::log2(cloud.scale)));
+  const double step = std::exp2(std::ceil(std::log2(std::max(extent.halfWidth(), cloud.scale))));
+  const auto rounded = [step](double x)
+  { return step * std::round(x / step) + 0.0; }; // one zero, not two
+  cloud.origin = { rounded(cloud.origin.x), rounded(cloud.origin.y), rounded(cloud.origin.z) };
+}
+
 /// Chooses the middle and the mean radius, or, where some particles would not fit, the medians; no
 /// sphere is made.
-SphereCloud emptyCloudAround(const ParticleSource& source, const ProcessGroup& group)
+SphereCloud emptyCloudAround(const ParticleSource& source, const ProcessGroup& group, FrameFit fit)
 {
   SphereCloud cloud;
   Extent extent;
@@ -208,6 +225,10 @@ SphereCloud emptyCloudAround(const ParticleSource& source, const ProcessGroup& g
     forEachOwned(source, [&](Vec3d, double radius) { mean.include(radius); });
     cloud.origin = extent.middle();
     cloud.scale = mean.get(group);
+    if (fit == FrameFit::Steady)
+    {
+      roundFrame(cloud, extent);
+    }
     if (!fitsFrame(cloud, extent))
     {
       useMedians(cloud, source, group);
@@ -239,9 +260,9 @@ bool SphereCloud::inRange(Vec3d local)
   return isFinite(local) && isWithin(local, 0);
 }
 
-SphereCloud makeSphereCloud(const ParticleSource& source, const ProcessGroup& group)
+SphereCloud makeSphereCloud(const ParticleSource& source, const ProcessGroup& group, FrameFit fit)
 {
-  return makeSphereCloudLike(emptyCloudAround(source, group), source);
+  return makeSphereCloudLike(emptyCloudAround(source, group, fit), source);
 }
 
 SphereCloud makeSphereCloud(std::size_t count, const std::function<Vec3d(std::size_t)>& positionAt,

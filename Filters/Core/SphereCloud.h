@@ -81,10 +81,20 @@ struct ParticleSource
   std::function<bool(std::size_t)> isGhost = {}; ///< see SphereCloud::ghosts; empty: none is
 };
 
+/// How the origin and the scale of a cloud follow from its particles.
+enum class FrameFit
+{
+  Exact, ///< the middle and the mean radius
+  /// These rounded, to a power of two: the scale by up to a factor of sqrt(2), the origin by up to
+  /// the half width of the cloud. The frame mostly stays when particles move, and with it the
+  /// floats of those that rest.
+  Steady
+};
+
 /// Gathers the usable particles. Origin and scale are those of all particles of the group together,
 /// ghosts aside, with the same bits however these are distributed and ordered.
-[[nodiscard]] SphereCloud makeSphereCloud(
-  const ParticleSource& source, const ProcessGroup& group = ProcessGroup::alone());
+[[nodiscard]] SphereCloud makeSphereCloud(const ParticleSource& source,
+  const ProcessGroup& group = ProcessGroup::alone(), FrameFit fit = FrameFit::Exact);
 
 /// The same in the local coordinates of another cloud, for spheres that share a scene with it.
 [[nodiscard]] SphereCloud makeSphereCloudLike(

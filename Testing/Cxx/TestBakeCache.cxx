@@ -25,6 +25,7 @@ std::map<std::string, double> numbersOf(Filter* f)
     { "textures", number(f->GetNumberOfTextures()) },
     { "bytes", number(f->GetNumberOfTextureBytes()) },
     { "refined", number(f->GetNumberOfParticlesRefined()) },
+    { "reused", number(f->GetNumberOfParticlesReused()) },
     { "closed", number(f->GetNumberOfVisitsClosed()) },
     { "never seen", number(f->GetNumberOfVisitsNeverSeen()) },
     { "black", number(f->GetNumberOfDirectionsBlack()) },

@@ -62,6 +62,7 @@ TEST(ParameterDefaults, OfTheBakingFilterAgreeWithItsXml)
     { "StorageError", { f->GetStorageError() } },
     { "Seed", { f->GetSeed() } },
     { "IdArray", { po::RadiusSettings::Automatic } },
+    { "ReuseUnchanged", { f->GetReuseUnchanged() } },
     { "OutOfCore", { f->GetOutOfCore() } },
     { "UseCache", { f->GetUseCache() } },
     { "CacheDirectory", { f->GetCacheDirectory() } },

@@ -39,6 +39,39 @@ TEST(SphereCloud, RecentresInDoubleAndScalesByTheMeanRadius)
   EXPECT_NEAR(back.y, 2, 1e-12);
 }
 
+TEST(SphereCloud, ASteadyFrameStaysWhenParticlesMove)
+{
+  const auto steady = [](double far, double radius)
+  {
+    const std::vector<Particle> particles = { { { 1003, 7, 0 }, radius },
+      { { 1003 + far, 7, 0 }, radius }, { { 1050, 7, 1 }, radius } };
+    return po::makeSphereCloud(
+      { particles.size(), [&](std::size_t i) { return particles[i].position; },
+        [&](std::size_t i) { return particles[i].radius; } },
+      po::ProcessGroup::alone(), po::FrameFit::Steady);
+  };
+  const po::SphereCloud cloud = steady(80, 0.3);
+  EXPECT_EQ(cloud.scale, 0.25);
+  EXPECT_EQ(cloud.origin.x, 1024); // 1043 in steps of 64
+  EXPECT_EQ(cloud.origin.y, 0);
+  for (const double far : { 65.0, 81.3, 100.0 })
+  {
+    const po::SphereCloud other = steady(far, 0.3);
+    EXPECT_EQ(other.scale, cloud.scale);
+    EXPECT_EQ(other.origin, cloud.origin);
+    EXPECT_EQ(other.spheres[0].x, cloud.spheres[0].x);
+  }
+  EXPECT_EQ(steady(80, 0.5).scale, 0.5);
+  const po::SphereCloud below =
+    po::makeSphereCloud({ 2,
+                          [](std::size_t i) {
+                            return po::Vec3d{ i == 0 ? -5.0 : 4.0, 0, 0 };
+                          },
+                          [](std::size_t) { return 1.0; } },
+      po::ProcessGroup::alone(), po::FrameFit::Steady);
+  EXPECT_FALSE(std::signbit(below.origin.x)); // zero has the same bits from both sides
+}
+
 TEST(SphereCloud, LeavesOutAndCountsWhatIsNoSphere)
 {
   const po::SphereCloud cloud = cloudOf(

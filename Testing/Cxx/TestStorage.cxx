@@ -231,6 +231,83 @@ TEST(Storage, BlocksGetTheirOwnTexturesAndMergeAgain)
   }
 }
 
+TEST(Storage, BlocksOfOneBakeShareTheMemoryOfTheirTables)
+{
+  const auto whole = mixedCloud(Particles);
+  for (const int storage : { Filter::Full, Filter::VariableSize, Filter::Compressed })
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    blocks->SetBlock(0, part(whole, [](vtkIdType i) { return i % 3 == 0; }));
+    blocks->SetBlock(1, part(whole, [](vtkIdType i) { return i % 3 != 0; }));
+    auto filter = bakeWith(blocks, storage);
+    const auto block = [&](unsigned i)
+    {
+      return vtkSmartPointer<vtkPolyData>(vtkPolyData::SafeDownCast(
+        vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0))->GetBlock(i)));
+    };
+    auto a = block(0), b = block(1);
+    filter = nullptr;
+    const auto tableOf = [](vtkPolyData* data)
+    {
+      return vtkUnsignedCharArray::SafeDownCast(
+        data->GetFieldData()->GetArray("AmbientOcclusionTextures"));
+    };
+    std::string fault;
+    const auto merged = po::mergeParticles({ a, b }, fault);
+    EXPECT_EQ(fault, "");
+    EXPECT_EQ(tableOf(merged)->GetPointer(0), tableOf(a)->GetPointer(0));
+    EXPECT_EQ(tableOf(merged)->GetNumberOfTuples(),
+      tableOf(a)->GetNumberOfTuples() + tableOf(b)->GetNumberOfTuples());
+    // In another order they are copied.
+    const auto turned = po::mergeParticles({ b, a }, fault);
+    EXPECT_NE(tableOf(turned)->GetPointer(0), tableOf(b)->GetPointer(0));
+    const auto valueOf = [&](vtkPolyData* data, vtkIdType i)
+    {
+      return po::readBakedTextures(*data, fault)
+        .textures.at(static_cast<std::size_t>(i), po::Vec3f{ 0.3f, -0.5f, 0.7f });
+    };
+    const vtkIdType ofA = a->GetNumberOfPoints(), ofB = b->GetNumberOfPoints();
+    std::vector<float> expected;
+    for (vtkIdType i = 0; i < ofA + ofB; ++i)
+    {
+      expected.push_back(i < ofA ? valueOf(a, i) : valueOf(b, i - ofA));
+    }
+    a = b = nullptr; // the memory stays
+    for (vtkIdType i = 0; i < ofA + ofB; i += 7)
+    {
+      const float value = expected[static_cast<std::size_t>(i)];
+      EXPECT_EQ(valueOf(merged, i), value);
+      EXPECT_EQ(valueOf(turned, i < ofA ? ofB + i : i - ofA), value);
+    }
+    EXPECT_EQ(fault, "");
+  }
+}
+
+TEST(Storage, ABlockWhoseTableWasChangedIsCopied)
+{
+  const auto whole = mixedCloud(Particles);
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, part(whole, [](vtkIdType i) { return i % 3 == 0; }));
+  blocks->SetBlock(1, part(whole, [](vtkIdType i) { return i % 3 != 0; }));
+  const auto filter = bakeWith(blocks, Filter::Full);
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  auto* a = vtkPolyData::SafeDownCast(output->GetBlock(0));
+  auto* b = vtkPolyData::SafeDownCast(output->GetBlock(1));
+  auto* table =
+    vtkUnsignedCharArray::SafeDownCast(a->GetFieldData()->GetArray("AmbientOcclusionTextures"));
+  const std::vector<unsigned char> zeros(static_cast<std::size_t>(table->GetNumberOfComponents()));
+  table->InsertNextTypedTuple(zeros.data());
+  std::string fault;
+  const auto merged = po::mergeParticles({ a, b }, fault);
+  EXPECT_EQ(fault, "");
+  auto* all = vtkUnsignedCharArray::SafeDownCast(
+    merged->GetFieldData()->GetArray("AmbientOcclusionTextures"));
+  EXPECT_NE(all->GetPointer(0), table->GetPointer(0));
+  EXPECT_EQ(all->GetTypedComponent(table->GetNumberOfTuples() - 1, 0), 0);
+  EXPECT_EQ(po::readBakedTextures(*merged, fault).textures.at(1, { 1, 0, 0 }),
+    po::readBakedTextures(*a, fault).textures.at(1, { 1, 0, 0 }));
+}
+
 TEST(Storage, BakesOfOtherBasesMergeDecoded)
 {
   const auto a = baked(Filter::Compressed), c = baked(Filter::VariableSize);

@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Each a parameter of its own, in any order and number.
   while (bytes.remaining_bytes() > 0)
   {
-    switch (bytes.ConsumeIntegralInRange<int>(0, 18))
+    switch (bytes.ConsumeIntegralInRange<int>(0, 19))
     {
       case 0:
         filter->SetTextureResolution(anyInteger(bytes));
@@ -103,6 +103,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         filter->SetLightDirection(x, y, z);
         break;
       }
+      case 18:
+        filter->SetReuseUnchanged(bytes.ConsumeBool());
+        break;
       case 17:
         filter->SetLightIntensity(anyNumber(bytes));
         break;

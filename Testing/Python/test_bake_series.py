@@ -35,8 +35,8 @@ class Series(unittest.TestCase):
     def file(self, name):
         return os.path.join(self.folder, name)
 
-    def start_series(self, *arguments):
-        settings = [f"{name}={value}" for name, value in SETTINGS.items()]
+    def start_series(self, *arguments, **more):
+        settings = [f"{name}={value}" for name, value in {**SETTINGS, **more}.items()]
         process = subprocess.Popen(
             [PVBATCH, os.path.join(DATA, "Examples", "bake_series.py"), *arguments, "--set", *settings],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -47,8 +47,8 @@ class Series(unittest.TestCase):
         output, _ = process.communicate(timeout=600)
         return subprocess.CompletedProcess(process.args, process.returncode, output)
 
-    def bake_series(self, *arguments):
-        return self.finish_series(self.start_series(*arguments))
+    def bake_series(self, *arguments, **more):
+        return self.finish_series(self.start_series(*arguments, **more))
 
     def table(self, source):
         data = servermanager.Fetch(source)
@@ -76,6 +76,23 @@ class Series(unittest.TestCase):
         self.assertIn("heap.occlusion.exr: is there", again.stdout)
         self.assertIn("none.vtp: failed: there is no such file", again.stdout)
         self.assertTrue(os.path.exists(self.file("molecule.occlusion.exr")))
+
+    def test_what_rests_keeps_its_textures(self):
+        heap = OpenDataFile(self.steps[0])
+        moved = Calculator(Input=heap, CoordinateResults=1, Function="coords + 0.1 * iHat * (coordsZ > 20)")
+        SaveData(self.file("later.vtp"), moved, DataMode="Binary")
+        result = self.bake_series(
+            self.steps[0], self.file("later.vtp"), "--precision", "Float", ReuseUnchanged=1, MaximumDistance=2.0)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        particles, reused = map(int, re.search(r"later.*: (\d+) particles, (\d+) as before", result.stdout).groups())
+        self.assertGreater(reused, 0.2 * particles)
+        self.assertLess(reused, particles)
+        # The texture file is that of a bake of the step alone.
+        baked = SphereAmbientOcclusion(Input=OpenDataFile(self.file("later.vtp")), ReuseUnchanged=1,
+                                       MaximumDistance=2.0, **SETTINGS)
+        loaded = LoadOcclusionTexturesEXR(
+            Input=OpenDataFile(self.file("later.vtp")), FileName=self.file("later.occlusion.exr"))
+        self.assertEqual(self.table(loaded).tolist(), self.table(baked).tolist())
 
     def test_processes_share_a_cache(self):
         folders = [self.file("first"), self.file("second")]

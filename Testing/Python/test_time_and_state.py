@@ -166,7 +166,7 @@ FILTER = dict(RadiusFrom="Diameter", RadiusArray="radius", Density=2.0, RadiusSc
               CropBox=1, CropBoxOrigin=[-9.0, -9.0, -9.0], CropBoxSize=[20.0, 20.0, 20.0],
               BakeLight=1, LightDirection=[0.0, -1.0, -0.5], LightIntensity=0.5,
               BackgroundImage="sky.exr", DilateInside=0, InsideThreshold=0.1, Encoding="Float32Linear",
-              Storage="Variable Size", StorageError=0.02, OutOfCore=1, Seed=7,
+              Storage="Variable Size", StorageError=0.02, ReuseUnchanged=1, OutOfCore=1, Seed=7,
               IdArray="radius", UseCache=1, CacheDirectory=CACHE.name, CacheSizeLimit=100)
 DISPLAY = dict(RadiusArray="radius", RadiusScale=0.8, ConstantRadius=0.3, ShadingMode="Ambient Occlusion",
                OcclusionOnDiffuse=0, Shadows=1, LayersFile="layers.exr", LayersResolution=[320, 240],
