@@ -5,8 +5,6 @@
 #include "RimFinder.h"
 #include "TexelCaps.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -55,11 +53,11 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
     {
       isWatched[spheres_[sphere].place] = 1;
     }
-    stored_ = std::make_unique<StoredVisibility>(texels, std::move(isWatched));
+    stored_ = std::make_unique<StoredVisibility>(texels, std::move(isWatched), memory_);
   }
 }
 
-void VisibilityRecords::prefetch(unsigned sphere) const
+void VisibilityRecords::prefetchRims(unsigned sphere) const
 {
   if (const TexelRims* rims = spheres_[sphere].rims.load(std::memory_order_relaxed))
   {
@@ -68,22 +66,23 @@ void VisibilityRecords::prefetch(unsigned sphere) const
   }
 }
 
-bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask) const
+bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask)
 {
-  const TexelRims* known = rims(sphere);
-  if (known != nullptr && known->areToldApart())
+  const TexelRims* known = spheres_[sphere].wasSeen ? tellTexelsApart(sphere) : nullptr;
+  if (known == nullptr)
   {
-    if (!intersect(texels_.groups(), known->outside, mask))
-    {
-      return false;
-    }
-    hwy::Prefetch(known->rims);
-    hwy::Prefetch(known->rims + 8);
-    hwy::Prefetch(known->capOf);
-    hwy::Prefetch(known->capOf + 16);
-    hwy::Prefetch(known->caps);
-    hwy::Prefetch(known->caps + 4);
+    return true;
   }
+  if (!intersect(texels_.groups(), known->outside, mask))
+  {
+    return false;
+  }
+  hwy::Prefetch(known->rims);
+  hwy::Prefetch(known->rims + 8);
+  hwy::Prefetch(known->capOf);
+  hwy::Prefetch(known->capOf + 16);
+  hwy::Prefetch(known->caps);
+  hwy::Prefetch(known->caps + 4);
   return true;
 }
 
@@ -97,22 +96,26 @@ void VisibilityRecords::prefetchMasks(unsigned sphere, std::size_t axis) const
 
 bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask)
 {
-  const TexelRims* known = rims(sphere);
-  if (known == nullptr)
+  if (const TexelRims* known = findRims(sphere))
   {
-    Surface surface = spheres_[sphere].surface.load(std::memory_order_acquire);
-    if (surface == Surface::Unknown)
-    {
-      surface = findSurface(sphere);
-    }
-    if (surface != Surface::Cut)
-    {
-      // What shows of one that only occludes inside others hides nothing that is outside.
-      return surface != Surface::Buried;
-    }
-    known = rims(sphere);
+    return po::clearInside(patterns(), pattern, *known, mask);
   }
-  return po::clearInside(patterns(), pattern, *known, mask);
+  // What shows of one that only occludes inside others hides nothing that is outside.
+  return surface(sphere) != Surface::Buried;
+}
+
+/// Null where nothing cuts a sphere.
+const TexelRims* VisibilityRecords::findRims(unsigned sphere)
+{
+  const TexelRims* known = rims(sphere);
+  if (known != nullptr ||
+    spheres_[sphere].surface.load(std::memory_order_acquire) != Surface::Unknown)
+  {
+    // Another thread may have found them in between: rims are there before the surface is known.
+    return known != nullptr ? known : rims(sphere);
+  }
+  findSurface(sphere);
+  return rims(sphere);
 }
 
 void VisibilityRecords::learn(unsigned sphere, Surface surface)
@@ -154,24 +157,24 @@ VisibilityRecords::Surface VisibilityRecords::findSurface(unsigned sphere)
 
 /// Most spheres that are looked at show points inside others alone; only for those that are seen it
 /// is worth while to tell texels apart.
-void VisibilityRecords::tellTexelsApart(unsigned sphere)
+const TexelRims* VisibilityRecords::tellTexelsApart(unsigned sphere)
 {
-  const TexelRims* known = rims(sphere);
+  const TexelRims* known = findRims(sphere);
   if (known == nullptr || known->areToldApart())
   {
-    return;
+    return known;
   }
   // Two threads may do the same at once; it does not matter whose result stays.
   thread_local RimFinder finder;
   std::pmr::memory_resource& memory = *memory_.ofThread();
-  spheres_[sphere].rims.store(
-    copyTo(memory, finder.find(texels_, *known), texels_.groups()), std::memory_order_release);
+  const TexelRims* told = copyTo(memory, finder.find(texels_, *known), texels_.groups());
+  spheres_[sphere].rims.store(told, std::memory_order_release);
+  return told;
 }
 
 void VisibilityRecords::keep(
   unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask)
 {
-  tellTexelsApart(sphere);
   if (!isListed(sphere))
   {
     return;

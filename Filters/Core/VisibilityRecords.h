@@ -11,6 +11,8 @@
 #include "TexelRims.h"
 #include "TextureFormula.h"
 
+#include <hwy/cache_control.h>
+
 #include <atomic>
 #include <memory>
 #include <vector>
@@ -74,12 +76,18 @@ public:
   [[nodiscard]] std::size_t spheres() const { return spheres_.size(); }
   [[nodiscard]] bool isListed(unsigned sphere) const { return spheres_[sphere].place != NoPlace; }
 
-  /// Fetches what clearCovered() needs of a sphere, if it has been seen, while other work goes on.
-  void prefetch(unsigned sphere) const;
+  /// Fetches, while other work goes on, what prefetchRims() needs of a sphere.
+  void prefetch(unsigned sphere) const { hwy::Prefetch(&spheres_[sphere]); }
 
-  /// Clears the bits of texels that are wholly inside, if it is known already what overlaps the
-  /// sphere; false if none is left. Fetches what clearInside() needs then.
-  bool clearCovered(unsigned sphere, GroupMask* mask) const;
+  /// Fetches what clearCovered() needs, if the sphere has been looked at.
+  void prefetchRims(unsigned sphere) const;
+
+  /// Tells that a direction of an earlier block has seen a sphere. Not while threads look at any.
+  void markSeen(unsigned sphere) { spheres_[sphere].wasSeen = true; }
+
+  /// Clears the bits of texels that are wholly inside others, of a sphere that was marked as seen;
+  /// false if none is left. Fetches what clearInside() needs then.
+  bool clearCovered(unsigned sphere, GroupMask* mask);
 
   /// Fetches what keep() needs of a sphere that was seen before, while other work goes on.
   void prefetchMasks(unsigned sphere, std::size_t axis) const;
@@ -137,12 +145,14 @@ private:
     std::atomic<const TexelRims*> rims{ nullptr }; ///< of a cut one
     unsigned place = NoPlace;                      ///< among the listed ones
     std::atomic<Surface> surface{ Surface::Unknown };
+    bool wasSeen = false; ///< in an earlier block
   };
 
   void beginEpoch();
   Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
-  void tellTexelsApart(unsigned sphere);
+  [[nodiscard]] const TexelRims* findRims(unsigned sphere);
+  [[nodiscard]] const TexelRims* tellTexelsApart(unsigned sphere);
   [[nodiscard]] bool isAlone(unsigned sphere) const;
 
   const BakeScene& scene_;
