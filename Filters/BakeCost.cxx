@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "BakeCost.h"
 
+#include "BakeMethods.h"
 #include "EmbreeEstimator.h"
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
+#include "TextureMemory.h"
 #include "vtkSphereAmbientOcclusion.h"
 
 #include <algorithm>
@@ -121,13 +123,21 @@ double textureMemoryOf(const BakeWork& work)
 }
 }
 
-BakeCost estimateCost(const BakeWork& work)
+BakeCost estimateCost(const BakeWork& asked)
 {
+  BakeWork work = asked;
+  const bool keeps =
+    work.reuseUnchanged && mayReuse(work.method, work.settings.maximumDistance, work.targetError);
+  if (keeps && work.method == vtkSphereAmbientOcclusion::Automatic)
+  {
+    work.method = vtkSphereAmbientOcclusion::Embree;
+  }
   const double side = work.settings.textureResolution;
   const double texels = side * side;
   const double seconds = occlusionSeconds(work, texels) + lightSeconds(work);
   const Storage storage = work.settings.storage;
-  return { work.targetError > 0 ? 0 : seconds, memoryOf(work), textureMemoryOf(work),
+  const double kept = keeps ? TextureMemory::BytesPerTexel * texels * double(work.particles) : 0;
+  return { work.targetError > 0 ? 0 : seconds, memoryOf(work) + kept, textureMemoryOf(work),
     storage == Storage::VariableSize || storage == Storage::Compressed };
 }
 

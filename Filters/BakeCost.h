@@ -16,10 +16,12 @@ namespace po
 struct BakeWork
 {
   std::size_t particles = 0;
-  int method = 0; ///< vtkSphereAmbientOcclusion::MethodType; Automatic counts as Sweep
+  int method = 0; ///< vtkSphereAmbientOcclusion::MethodType; Automatic counts as Sweep,
+                  ///< or as Embree where textures are kept
   BakeSettings settings;
   double targetError = 0;
   bool outOfCore = false;
+  bool reuseUnchanged = false; ///< textures are kept for the next execution, if they may be
 };
 
 struct BakeCost

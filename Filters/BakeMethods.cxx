@@ -189,6 +189,15 @@ std::vector<unsigned> distinct(std::vector<unsigned> numbers)
   return numbers;
 }
 
+bool mayReuse(int method, double maximumDistance, double targetError)
+{
+  using Filter = vtkSphereAmbientOcclusion;
+  // Sweep leaves out spheres for what others hide, and Reference with a target takes as many rays
+  // as the whole set needs.
+  const bool isLocal = method != Filter::Sweep && !(method == Filter::Reference && targetError > 0);
+  return isLocal && maximumDistance > 0;
+}
+
 int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group)
 {
   const bool triangles = group.any(!task.occluders.mesh.triangles.empty());

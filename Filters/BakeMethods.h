@@ -47,6 +47,9 @@ struct BakeTask
 /// The numbers in ascending order, each once.
 [[nodiscard]] std::vector<unsigned> distinct(std::vector<unsigned> numbers);
 
+/// Can textures of an earlier bake be reused (see BakeReuse)? Automatic then stands for Embree.
+[[nodiscard]] bool mayReuse(int method, double maximumDistance, double targetError);
+
 /// The method that Automatic stands for: the same on all processes.
 /// Throws std::invalid_argument for a method that cannot bake the task.
 [[nodiscard]] int chooseMethod(int method, const BakeTask& task, const ProcessGroup& group);

@@ -240,10 +240,8 @@ std::string idArrayOf(vtkSphereAmbientOcclusion& filter)
 
 bool reusesTextures(vtkSphereAmbientOcclusion& filter)
 {
-  using Filter = vtkSphereAmbientOcclusion;
-  const int method = filter.GetMethod();
-  return filter.GetReuseUnchanged() && filter.GetMaximumDistance() > 0 && method != Filter::Sweep &&
-    !(method == Filter::Reference && filter.GetTargetError() > 0);
+  return filter.GetReuseUnchanged() &&
+    mayReuse(filter.GetMethod(), filter.GetMaximumDistance(), filter.GetTargetError());
 }
 
 CacheSettings cacheOf(vtkSphereAmbientOcclusion& filter)

@@ -3,7 +3,6 @@
 
 #include "BakeKey.h"
 #include "SceneChanges.h"
-#include "vtkSphereAmbientOcclusion.h"
 
 #include <algorithm>
 #include <utility>
@@ -93,12 +92,8 @@ BakeTask taskOf(const std::vector<unsigned>& receivers, const BakeTask& task)
 
 bool BakeReuse::suits(int method, const BakeTask& task)
 {
-  using Filter = vtkSphereAmbientOcclusion;
-  // Sweep leaves out spheres for what others hide, Reference with a target takes as many rays as
-  // the whole set needs, and what is wider than floats is cut up as a whole.
-  const bool isLocal =
-    method == Filter::Embree || (method == Filter::Reference && task.targetError == 0);
-  return task.reuseUnchanged && isLocal && task.settings.maximumDistance > 0 &&
+  // What is wider than floats is cut up as a whole.
+  return task.reuseUnchanged && mayReuse(method, task.settings.maximumDistance, task.targetError) &&
     task.cloud.centers.empty() && task.occluders.centers.empty();
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace po
@@ -55,6 +56,18 @@ EncodedTextureFile::EncodedTextureFile(const std::string& fileName)
   values_.resize(texelIndex(format_.resolution, format_.resolution, 0));
 }
 
+std::string EncodedTextureFile::radiusArray() const
+{
+  const OcclusionParameters& parameters = file_.parameters();
+  return parameters.has("radiusArray") ? parameters.get("radiusArray") : "";
+}
+
+bool EncodedTextureFile::isSameGeometry(vtkPointSet& points) const
+{
+  return points.GetNumberOfPoints() == file_.particleCount() &&
+    (file_.geometry().empty() || file_.geometry() == hashGeometry(points, radiusArray()));
+}
+
 std::string EncodedTextureFile::checkParticles(vtkPointSet& points) const
 {
   if (points.GetNumberOfPoints() != file_.particleCount())
@@ -64,15 +77,56 @@ std::string EncodedTextureFile::checkParticles(vtkPointSet& points) const
       std::to_string(points.GetNumberOfPoints()) +
       " points; choose the data set that was baked, before any filter that removes points.");
   }
-  const OcclusionParameters& parameters = file_.parameters();
-  const std::string radii = parameters.has("radiusArray") ? parameters.get("radiusArray") : "";
-  if (file_.geometry().empty() || file_.geometry() == hashGeometry(points, radii))
+  if (isSameGeometry(points))
   {
     return {};
   }
   return "The textures of \"" + fileName_ +
     "\" were saved for particles of other positions, radii or order: the occlusion shown may be "
     "wrong. Choose the data set and time step that was baked, or bake again.";
+}
+
+std::string EncodedTextureFile::readParticles(
+  vtkPointSet& points, std::vector<std::int32_t>& rows, std::vector<float>& means) const
+{
+  const bool isSame = isSameGeometry(points);
+  if (!isSame && file_.hasPlaces() && findByPlace(points, rows, means))
+  {
+    return {};
+  }
+  std::string warning = isSame ? std::string() : checkParticles(points);
+  rows.resize(static_cast<std::size_t>(points.GetNumberOfPoints()));
+  means.resize(rows.size());
+  file_.readParticles(rows.data(), means.data());
+  return warning;
+}
+
+/// False if a point is none of the particles.
+bool EncodedTextureFile::findByPlace(
+  vtkPointSet& points, std::vector<std::int32_t>& rows, std::vector<float>& means) const
+{
+  const std::vector<PlaceHash> known = file_.readPlaces();
+  std::vector<std::uint32_t> order(known.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(),
+    [&](std::uint32_t a, std::uint32_t b) { return known[a] < known[b]; });
+  std::vector<std::int32_t> allRows(known.size());
+  std::vector<float> allMeans(known.size());
+  file_.readParticles(allRows.data(), allMeans.data());
+  rows.clear();
+  means.clear();
+  for (const PlaceHash& place : placeHashes(points, radiusArray()))
+  {
+    const auto found = std::lower_bound(order.begin(), order.end(), place,
+      [&](std::uint32_t particle, const PlaceHash& wanted) { return known[particle] < wanted; });
+    if (found == order.end() || known[*found] != place)
+    {
+      return false;
+    }
+    rows.push_back(allRows[*found]);
+    means.push_back(allMeans[*found]);
+  }
+  return true;
 }
 
 void EncodedTextureFile::read(std::int32_t row, void* texels) const

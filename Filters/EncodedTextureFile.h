@@ -31,10 +31,22 @@ public:
   /// @return a warning if the particles have other positions or radii than those of the file
   [[nodiscard]] std::string checkParticles(vtkPointSet& points) const;
 
+  /// Reads the row (-1 = none) and the mean of each point: by the order of the points, or where
+  /// that is another or only some of the particles are there, by their places, if the file has
+  /// them. Throws what checkParticles throws.
+  /// @return a warning if the particles have other positions or radii than those of the file
+  [[nodiscard]] std::string readParticles(
+    vtkPointSet& points, std::vector<std::int32_t>& rows, std::vector<float>& means) const;
+
   /// Stores format().textureBytes() bytes. For one thread at a time.
   void read(std::int32_t row, void* texels) const override;
 
 private:
+  [[nodiscard]] bool isSameGeometry(vtkPointSet& points) const;
+  [[nodiscard]] bool findByPlace(
+    vtkPointSet& points, std::vector<std::int32_t>& rows, std::vector<float>& means) const;
+  [[nodiscard]] std::string radiusArray() const;
+
   std::string fileName_;
   OcclusionTextureFile file_;
   TexelFormat format_;

@@ -2,6 +2,7 @@
 #include "GeometryHash.h"
 
 #include "Digest.h"
+#include "Random.h"
 #include "SphereInput.h"
 
 #include "vtkDataArray.h"
@@ -33,6 +34,13 @@ void addAsDoubles(Digest& digest, vtkDataArray& array)
     digest.add(numbers);
   }
 }
+
+/// A constant radius, so that none is estimated.
+vtkDataArray* radiiOf(vtkPointSet& points, const std::string& radiusArray)
+{
+  const RadiusSettings radii = resolveRadii(points, { radiusArray, 1, 1 }, ProcessGroup::alone());
+  return points.GetPointData()->GetArray(radii.array.c_str());
+}
 }
 
 std::string hashGeometry(vtkPointSet& points, const std::string& radiusArray)
@@ -42,12 +50,30 @@ std::string hashGeometry(vtkPointSet& points, const std::string& radiusArray)
   {
     addAsDoubles(digest, *positions->GetData());
   }
-  // A constant radius, so that none is estimated.
-  const RadiusSettings radii = resolveRadii(points, { radiusArray, 1, 1 }, ProcessGroup::alone());
-  if (vtkDataArray* array = points.GetPointData()->GetArray(radii.array.c_str()))
+  if (vtkDataArray* radii = radiiOf(points, radiusArray))
   {
-    addAsDoubles(digest, *array);
+    addAsDoubles(digest, *radii);
   }
   return digest.text();
+}
+
+std::vector<PlaceHash> placeHashes(vtkPointSet& points, const std::string& radiusArray)
+{
+  vtkDataArray* radii = radiiOf(points, radiusArray);
+  std::vector<PlaceHash> hashes(static_cast<std::size_t>(points.GetNumberOfPoints()));
+  for (std::size_t i = 0; i < hashes.size(); ++i)
+  {
+    const auto point = static_cast<vtkIdType>(i);
+    std::array<double, 4> numbers{};
+    points.GetPoint(point, numbers.data());
+    numbers[3] = radii ? radii->GetComponent(point, 0) : 0;
+    std::uint64_t hash = 0;
+    for (const double number : numbers)
+    {
+      hash = mixBits(hash + 0x9E3779B97F4A7C15ull + wordOf(number + 0.0)); // one zero, not two
+    }
+    hashes[i] = { static_cast<std::uint32_t>(hash), static_cast<std::uint32_t>(hash >> 32) };
+  }
+  return hashes;
 }
 }

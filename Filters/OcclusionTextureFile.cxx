@@ -205,6 +205,31 @@ void OcclusionTextureFile::readTexture(std::int64_t row, float* texels) const
     });
 }
 
+bool OcclusionTextureFile::hasPlaces() const
+{
+  return std::all_of(PlaceChannels.begin(), PlaceChannels.end(),
+    [this](const char* name) { return internals_->file->header(1).channels().findChannel(name); });
+}
+
+std::vector<PlaceHash> OcclusionTextureFile::readPlaces() const
+{
+  Internals& file = *internals_;
+  const TileGrid grid(file.particleCount);
+  std::vector<PlaceHash> places(std::size_t(grid.columns) * grid.rows); // with the padding
+  withExrReadErrors(file.fileName,
+    [&]()
+    {
+      const std::lock_guard lock(file.mutex);
+      Imf::InputPart part(*file.file, 1);
+      Imf::FrameBuffer frame;
+      addPlaces(frame, places.data(), grid.columns, 0, grid.rows);
+      part.setFrameBuffer(frame);
+      part.readPixels(0, grid.rows - 1);
+    });
+  places.resize(static_cast<std::size_t>(file.particleCount));
+  return places;
+}
+
 void OcclusionTextureFile::readParticles(std::int32_t* rows, float* means) const
 {
   Internals& file = *internals_;

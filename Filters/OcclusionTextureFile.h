@@ -4,6 +4,7 @@
 
 #include "ParticleOcclusionFiltersModule.h"
 
+#include "GeometryHash.h"
 #include "OcclusionParameters.h"
 
 #include <cstdint>
@@ -23,7 +24,9 @@
 //
 // "particles", scan lines, a UINT channel "texture" (row of the particle's texture in the table;
 // 4294967295 = none) and a FLOAT channel "AO" (mean visibility), folded in rows of equal width. The
-// rest of the last row is padding.
+// rest of the last row is padding. UINT channels "place0" and "place1", which files may lack, are
+// the halves of what placeHashes says of each particle: so it is found in any order, and by
+// processes that have a part of the particles.
 //
 // The header of "textures" holds the counts (int "textureCount", "particleCount"), the bake's
 // parameters (string vector "AmbientOcclusionParameters" of "key=value" in their order) and, as
@@ -52,6 +55,7 @@ struct OcclusionTextureSource
   std::function<void(std::int64_t row, float* texels)> texture;
   const std::int32_t* rows = nullptr; ///< particleCount rows; -1 = no texture
   const float* means = nullptr;       ///< particleCount mean visibilities
+  const PlaceHash* places = nullptr;  ///< particleCount places, or null: the file has none
 };
 
 /// Writes the file beside and renames it; holds one texture at a time. Throws a std::runtime_error
@@ -82,6 +86,11 @@ public:
 
   /// Reads the row (-1 = none, else checked against textureCount) and the mean of every particle.
   void readParticles(std::int32_t* rows, float* means) const;
+
+  [[nodiscard]] bool hasPlaces() const;
+
+  /// Reads the place of every particle, of a file that has them.
+  [[nodiscard]] std::vector<PlaceHash> readPlaces() const;
 
 private:
   struct Internals;

@@ -5,9 +5,12 @@
 // How texture tables lie in OpenEXR files (see OcclusionTextureFile.h): what the writer and the
 // reader share. Internal to the module: includes OpenEXR.
 
+#include "GeometryHash.h"
+
 #include <ImfFrameBuffer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -21,6 +24,7 @@ inline constexpr const char* ParticlesPart = "particles";
 inline constexpr const char* TexelChannel = "Y";
 inline constexpr const char* RowChannel = "texture";
 inline constexpr const char* MeanChannel = "AO";
+inline constexpr std::array<const char*, 2> PlaceChannels = { "place0", "place1" };
 inline constexpr const char* TextureCountAttribute = "textureCount";
 inline constexpr const char* ParticleCountAttribute = "particleCount";
 inline constexpr const char* GeometryAttribute = "geometry";
@@ -57,6 +61,18 @@ inline Imf::FrameBuffer particleBuffer(
   frame.insert(RowChannel, Imf::Slice::Make(Imf::UINT, rows, origin, width, lines));
   frame.insert(MeanChannel, Imf::Slice::Make(Imf::FLOAT, means, origin, width, lines));
   return frame;
+}
+
+/// Adds what stands for the particles' places (see PlaceHash).
+inline void addPlaces(
+  Imf::FrameBuffer& frame, const PlaceHash* places, int width, int firstLine, int lines)
+{
+  const IMATH_NAMESPACE::V2i origin(0, firstLine);
+  for (std::size_t half = 0; half < PlaceChannels.size(); ++half)
+  {
+    frame.insert(PlaceChannels[half],
+      Imf::Slice::Make(Imf::UINT, places->data() + half, origin, width, lines, sizeof(PlaceHash)));
+  }
 }
 }
 

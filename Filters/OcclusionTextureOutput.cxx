@@ -68,6 +68,13 @@ Imf::Header particlesHeader(const OcclusionTextureSource& source, const Imf::Hea
   header.compression() = ParticleCompression;
   header.channels().insert(RowChannel, Imf::Channel(Imf::UINT));
   header.channels().insert(MeanChannel, Imf::Channel(Imf::FLOAT));
+  for (const char* name : PlaceChannels)
+  {
+    if (source.places)
+    {
+      header.channels().insert(name, Imf::Channel(Imf::UINT));
+    }
+  }
   return header;
 }
 
@@ -131,6 +138,19 @@ void writeTextures(Imf::MultiPartOutputFile& file, const OcclusionTextureSource&
   }
 }
 
+/// Lines of the particles' part, from the memory of the caller.
+void writeLines(Imf::OutputPart& part, const std::int32_t* rows, const float* means,
+  const PlaceHash* places, int width, int firstLine, int lines)
+{
+  Imf::FrameBuffer frame = particleBuffer(rows, means, width, firstLine, lines);
+  if (places)
+  {
+    addPlaces(frame, places, width, firstLine, lines);
+  }
+  part.setFrameBuffer(frame);
+  part.writePixels(lines);
+}
+
 /// Whole lines are written from the caller's memory, the last one from a padded copy.
 void writeParticles(Imf::MultiPartOutputFile& file, const OcclusionTextureSource& source)
 {
@@ -139,18 +159,22 @@ void writeParticles(Imf::MultiPartOutputFile& file, const OcclusionTextureSource
   Imf::OutputPart part(file, 1);
   if (wholeLines > 0)
   {
-    part.setFrameBuffer(particleBuffer(source.rows, source.means, grid.columns, 0, wholeLines));
-    part.writePixels(wholeLines);
+    writeLines(part, source.rows, source.means, source.places, grid.columns, 0, wholeLines);
   }
   if (wholeLines < grid.rows)
   {
     std::vector<std::int32_t> rows(grid.columns, -1);
     std::vector<float> means(grid.columns, 0.0f);
+    std::vector<PlaceHash> places(source.places ? grid.columns : 0, PlaceHash{});
     const std::int64_t done = std::int64_t{ wholeLines } * grid.columns;
     std::copy(source.rows + done, source.rows + source.particleCount, rows.begin());
     std::copy(source.means + done, source.means + source.particleCount, means.begin());
-    part.setFrameBuffer(particleBuffer(rows.data(), means.data(), grid.columns, wholeLines, 1));
-    part.writePixels(1);
+    if (source.places)
+    {
+      std::copy(source.places + done, source.places + source.particleCount, places.begin());
+    }
+    writeLines(part, rows.data(), means.data(), source.places ? places.data() : nullptr,
+      grid.columns, wholeLines, 1);
   }
 }
 

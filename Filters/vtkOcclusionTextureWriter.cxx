@@ -145,10 +145,9 @@ po::TexelPrecision requirePrecision(int precision, const po::OcclusionParameters
   return po::TexelPrecision::Half;
 }
 
-std::string geometryOf(vtkPolyData* input, const po::OcclusionParameters& parameters)
+std::string radiusArrayOf(const po::OcclusionParameters& parameters)
 {
-  return po::hashGeometry(
-    *input, parameters.has("radiusArray") ? parameters.get("radiusArray") : std::string());
+  return parameters.has("radiusArray") ? parameters.get("radiusArray") : std::string();
 }
 
 bool isPacked(const po::OcclusionParameters& parameters)
@@ -197,7 +196,7 @@ po::OcclusionTextureSource describeInput(vtkPolyData* input, int precision)
 
   po::OcclusionTextureSource source;
   source.parameters = po::OcclusionParameters::fromFieldData(input->GetFieldData());
-  source.geometry = geometryOf(input, source.parameters);
+  source.geometry = po::hashGeometry(*input, radiusArrayOf(source.parameters));
   source.precision = requirePrecision(precision, source.parameters);
   source.particleCount = points;
   source.means = means->GetPointer(0);
@@ -241,8 +240,11 @@ void vtkOcclusionTextureWriter::WriteData()
   }
   try
   {
-    po::OcclusionTextureSource source =
-      describeInput(vtkPolyData::SafeDownCast(this->GetInput()), this->Precision);
+    auto* input = vtkPolyData::SafeDownCast(this->GetInput());
+    po::OcclusionTextureSource source = describeInput(input, this->Precision);
+    const std::vector<po::PlaceHash> places =
+      po::placeHashes(*input, radiusArrayOf(source.parameters));
+    source.places = places.data();
     const TextureFunction texture = source.texture;
     const double count = static_cast<double>(source.textureCount);
     source.texture = [&](std::int64_t row, float* texels)

@@ -158,6 +158,8 @@ const char* vtkSphereAmbientOcclusion::GetBakeEstimate()
   }
   work.targetError = this->TargetError;
   work.outOfCore = this->OutOfCore;
+  work.reuseUnchanged = this->ReuseUnchanged;
+  work.settings.maximumDistance = this->MaximumDistance;
   const vtkNew<vtkBakeResources> resources;
   this->Impl->Estimate = po::describe(po::estimateCost(work), work.particles,
     resources->GetNumberOfCores(), resources->GetFreeMemory());

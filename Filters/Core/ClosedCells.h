@@ -8,6 +8,15 @@
 
 namespace po
 {
+/// The cells of ClosedCells, row after row.
+struct CellGrid
+{
+  std::vector<float> height; ///< below it a cell is closed; -infinity in an open one. Vectors may
+                             ///< reach beyond the last
+  int side = 0;              ///< cells along each side
+  int inner = 0;             ///< cells of the margin that no receiver reaches
+};
+
 /// Small square cells of a tile that one occluder covers wholly: whatever lies below its centre
 /// there is hidden. Tells spheres that are buried under others by a few loads.
 ///
@@ -28,15 +37,9 @@ public:
   [[nodiscard]] bool hidesAllBelow(float z) const { return open_ == 0 && z + reach_ <= lowest_; }
 
 private:
-  void closeRow(int row, int left, int right, float z);
-  /// Of an offset from the low edge; the number of cells along a side if it lies beyond.
-  [[nodiscard]] int cellAt(float offset) const;
-
-  std::vector<float> height_; ///< below it a cell is closed; -infinity in an open one
-  float lowX_ = 0, lowY_ = 0, cell_ = 1, perCell_ = 1, reach_ = 0;
+  CellGrid cells_;
+  float lowX_ = 0, lowY_ = 0, perCell_ = 1, reach_ = 0;
   float lowest_ = 0; ///< height of the latest cell that was closed, of those that receivers reach
-  int side_ = 0;     ///< cells along each side
-  int inner_ = 0;    ///< cells of the margin that no receiver reaches
   int open_ = 0;     ///< open cells that receivers reach
 };
 }

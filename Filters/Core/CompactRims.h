@@ -6,6 +6,7 @@
 #include "SweepTexels.h"
 #include "TexelRims.h"
 
+#include <hwy/cache_control.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <array>
@@ -39,6 +40,9 @@ public:
 
   /// Tells the texels of a listed sphere apart, if that was not done.
   void tellApart(unsigned sphere, unsigned source);
+
+  /// Fetches, while other work goes on, what prefetch() needs.
+  void prefetchPlace(unsigned sphere) const { hwy::Prefetch(&codes_[sphere]); }
 
   /// Fetches what is kept of a sphere while other work goes on.
   void prefetch(unsigned sphere) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -52,6 +53,19 @@ struct DepthRange
   }
 };
 
+/// Rows of memory that will be read soon.
+struct ComingRows
+{
+  std::uintptr_t first = 0; ///< address
+  std::ptrdiff_t pitch = 0; ///< bytes from row to row
+  std::ptrdiff_t step = 0;  ///< bytes from sample to sample
+
+  [[nodiscard]] const void* at(int i, int j) const
+  {
+    return reinterpret_cast<const void*>(first + static_cast<std::uintptr_t>(j * pitch + i * step));
+  }
+};
+
 /// The depths of some pixels, `samples` x `samples` each, row by row from the bottom. Pixels that
 /// lie beyond the image repeat its border.
 struct SampleBlock
@@ -64,8 +78,12 @@ struct SampleBlock
   int samples = 1;
   double origin = 0; ///< subtracted from every depth in double precision
   std::vector<float> depth;
+  /// Of the block to the right, which is likely to follow: asked for while this one is searched,
+  /// piece by piece, since memory can answer only so many questions at once.
+  ComingRows next;
 
-  [[nodiscard]] int stride() const { return columns * samples; }
+  /// From row to row: whole vectors. What is behind a row has any value.
+  [[nodiscard]] int stride() const { return (columns * samples + 7) / 8 * 8; }
 
   [[nodiscard]] int indexOf(int i, int j) const { return j * stride() + i; }
 
@@ -82,7 +100,7 @@ struct SampleBlock
     columns = newColumns;
     rows = newRows;
     samples = newSamples;
-    depth.resize(static_cast<std::size_t>(columns) * samples * rows * samples + Slack);
+    depth.resize(static_cast<std::size_t>(stride()) * rows * samples + Slack);
   }
 };
 

@@ -5,17 +5,11 @@
 #include "SilhouetteEdges.h"
 #include "SilhouetteTiles.h"
 
-#include <cstdint>
-
 namespace po
 {
-/// Sets the lines of a tile where they are the edges themselves: strength 1 at all of them, and the
-/// pixels of the picture in front.
-///
-/// @param width, height of the picture
-/// @return the rows that have lines, one bit each
-std::uint32_t setEdgePixels(
-  const EdgeFinder& finder, const SearchedTile& tile, int width, int height, TileLines& lines);
+/// Writes the lines of some tiles where they are the edges themselves: strength 1 at all of them,
+/// and the pixels of the picture in front; and clears rows that had lines.
+void writeEdges(const EdgeFinder& finder, const SearchedTiles& tiles, SilhouetteImage& image);
 }
 
 #endif

@@ -57,7 +57,7 @@ void ImageDepth<T>::fillRow(SampleBlock& block, int j) const
   const T* source = image_.depth + static_cast<std::size_t>(sourceJ) * image_.width;
   float* target = block.depth.data() + static_cast<std::ptrdiff_t>(j) * block.stride();
   const int first = block.x * samples_;
-  for (int i = 0; i < block.stride(); ++i)
+  for (int i = 0; i < block.columns * samples_; ++i)
   {
     const T t = source[std::clamp(first + i, 0, image_.width - 1)];
     target[i] = std::abs(t) < Infinity ? static_cast<float>(t - block.origin)

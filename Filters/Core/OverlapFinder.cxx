@@ -4,6 +4,7 @@
 #include "BrickOrder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -87,20 +88,35 @@ struct Query
   Vec3d center;
   float radius;
   const SphereBoxes* boxes = nullptr; ///< that are being searched
+  Vec3f place;                        ///< the centre relative to their brick
+  float within = 0;                   ///< distance from there at which others begin
 
-  /// Calls action(id) for the other spheres of a box.
+  /// Calls action(id) for the other spheres of a box that come within that distance, and maybe
+  /// for some that just do not.
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
+    // Most are too far away: told in floats, for all at once, since they may be far apart in
+    // memory.
+    std::array<unsigned, SphereBoxes::Spheres> near{};
+    std::size_t count = 0;
     boxes->forEachIn(arguments->primID,
-      [&](unsigned place)
+      [&](unsigned other)
       {
-        const unsigned other = boxes->brick->id(place);
-        if (other != id)
-        {
-          action(other);
-        }
+        const Sphere& sphere = boxes->brick->spheres[other];
+        const Vec3f offset = sphere.center() - place;
+        const float reach = (within + sphere.radius) * (1 + 1e-5f);
+        near[count] = other;
+        count += dot(offset, offset) <= reach * reach ? 1 : 0;
       });
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const unsigned other = boxes->brick->id(near[i]);
+      if (other != id)
+      {
+        action(other);
+      }
+    }
   }
   [[nodiscard]] Vec3d offsetTo(unsigned other) const { return spheres->center(other) - center; }
 
@@ -300,14 +316,16 @@ void OverlapFinder::search(Specific& query, float reach, RTCPointQueryFunction v
       continue;
     }
     const Vec3f place = (query.center - brick.origin).template as<float>();
-    // Rounding must not lose a box that just comes within the radius.
+    // Rounding must not lose a box or a sphere that just comes within the radius.
     const float size = radius + std::abs(place.x) + std::abs(place.y) + std::abs(place.z);
+    query.place = place;
+    query.within = radius + 4 * std::numeric_limits<float>::epsilon() * size;
     RTCPointQuery point;
     point.x = place.x;
     point.y = place.y;
     point.z = place.z;
     point.time = 0;
-    point.radius = radius + 4 * std::numeric_limits<float>::epsilon() * size;
+    point.radius = query.within;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(scenes_[i].get(), &point, &context, visit, &query);

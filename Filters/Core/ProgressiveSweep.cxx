@@ -193,6 +193,7 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
     tbb::parallel_for(std::size_t(0), count,
       [&](std::size_t i)
       {
+        made.prefetch(order_.indexOf(particles_[first + std::min(i + 3, count - 1)]));
         made.fill(order_.indexOf(particles_[first + i]), values.data() + i * texels,
           shares.data() + i * texels);
       });

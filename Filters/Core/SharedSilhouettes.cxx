@@ -246,7 +246,15 @@ std::vector<int> SharedSilhouettes::searchedTiles(
   nothing.height = height_;
   nothing.tileRows.assign(ranges.size(), 0);
   const int reach = static_cast<int>(WidestLine); // of any line
-  return tilesToSearch(ranges, rule, reach, nothing, true);
+  std::vector<int> numbers;
+  for (const SearchedTiles& tiles : tilesToSearch(ranges, rule, reach, nothing, true))
+  {
+    for (int x = tiles.x; x < tiles.x + tiles.count; ++x)
+    {
+      numbers.push_back(tiles.y * columns() + x);
+    }
+  }
+  return numbers;
 }
 
 /// Each process gets what all see in its rows and in one more on each side, which edges look at.

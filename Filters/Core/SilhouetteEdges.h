@@ -17,13 +17,22 @@ namespace po
 /// Edges among samples side by side in one row of a block.
 struct EdgeGroup
 {
-  static constexpr int Size = 8;
+  static constexpr int Size = DepthTileSize; ///< at most
 
   std::int16_t i, j;   ///< column and row of the first sample in the block
   std::uint32_t edges; ///< bit k: sample i + k lies behind a jump
   // Of the samples of these bits; those of others have any value.
   float jumps[Size]; ///< less the slopes where they are tested; infinite before the background
   std::int32_t fronts[Size]; ///< where the sample in front is: 4 (dj + 1) + di + 1
+};
+
+/// Room that is used again.
+struct EdgeWork
+{
+  std::vector<std::uint8_t> flags; ///< of groups, row by row
+  std::vector<EdgeGroup> groups;
+
+  void reserve(std::size_t count);
 };
 
 /// Those of one block, in order.
@@ -84,7 +93,10 @@ public:
   bool find(
     const DepthSource& source, const PixelRange& searched, const PixelRange& read, double origin);
 
-  [[nodiscard]] EdgeGroups groups() const { return { groups_.data(), groups_.data() + found_ }; }
+  [[nodiscard]] EdgeGroups groups() const
+  {
+    return { work_.groups.data(), work_.groups.data() + found_ };
+  }
   [[nodiscard]] const SampleBlock& block() const { return block_; }
 
 private:
@@ -93,9 +105,8 @@ private:
   const SilhouetteRule& rule_;
   int samples_;
   SampleBlock block_;
-  std::vector<float> nearest_;    ///< of three rows, see findEdges()
-  std::vector<EdgeGroup> groups_; ///< room
-  std::size_t found_ = 0;         ///< of them in use
+  EdgeWork work_;
+  std::size_t found_ = 0; ///< groups in use
 };
 
 /// The smallest step to a neighbour that can make an edge.

@@ -36,19 +36,48 @@ public:
                    : 0;
   }
 
-  std::uint32_t paint(const SearchedTile& tile)
+  void paint(const SearchedTiles& tiles, SilhouetteImage& image)
   {
-    const int x = tile.x * DepthTileSize, y = tile.y * DepthTileSize;
-    const int columns = std::min(DepthTileSize, source_.width() - x);
-    const int rows = std::min(DepthTileSize, source_.height() - y);
     if (reach_ == 0)
     {
-      const PixelRange read = grow(tile.edges, margin_);
-      return finder_.find(source_, tile.edges, read, tile.range.nearest) ? setEdges(tile) : 0;
+      paintEdges(tiles, image);
+      return;
     }
+    for (int x = tiles.x; x < tiles.x + tiles.count; ++x)
+    {
+      const SearchedTiles tile{ x, tiles.y, 1, tiles.nearest };
+      writeRows(lines_, paintTile(tile), tile.x, tile.y, image);
+    }
+  }
+
+private:
+  /// Lines of one pixel: the edges themselves.
+  void paintEdges(const SearchedTiles& tiles, SilhouetteImage& image)
+  {
+    const PixelRange all = tiles.pixels(source_.width(), source_.height());
+    finder_.find(source_, all, grow(all, margin_), tiles.nearest);
+    writeEdges(finder_, tiles, image);
+    if (rule_.greyByJump)
+    {
+      forEachEdge(finder_.groups(), [&](const SilhouetteEdge& edge) { darkenByJump(edge, image); });
+    }
+  }
+
+  void darkenByJump(const SilhouetteEdge& edge, SilhouetteImage& image) const
+  {
+    const SampleBlock& block = finder_.block();
+    const auto behind = static_cast<std::size_t>(block.indexOf(edge.i, edge.j));
+    const float jump = block.depth[behind] - block.depth[static_cast<std::size_t>(frontOf(edge))];
+    const auto pixel = static_cast<std::size_t>(block.y + edge.j) * image.width + block.x + edge.i;
+    image.strength[pixel] = rule_.ramp.at(jump);
+  }
+
+  /// @return the rows that have lines, one bit each
+  std::uint32_t paintTile(const SearchedTiles& tile)
+  {
     // What is beside the picture counts too, and all of the tile: lines come from everywhere.
-    const PixelRange all{ x, y, x + columns, y + rows };
-    if (!finder_.find(source_, grow(all, reach_), grow(all, margin_), tile.range.nearest))
+    const PixelRange all = tile.pixels(source_.width(), source_.height());
+    if (!finder_.find(source_, grow(all, reach_), grow(all, margin_), tile.nearest))
     {
       return 0;
     }
@@ -61,37 +90,7 @@ public:
         cover(finder_.block().indexOf(edge.i, edge.j), frontOf(edge));
         spread(edge);
       });
-    return setCovered(columns, rows);
-  }
-
-  [[nodiscard]] const TileLines& lines() const { return lines_; }
-
-private:
-  static PixelRange grow(const PixelRange& range, int pixels)
-  {
-    return { range.x0 - pixels, range.y0 - pixels, range.x1 + pixels, range.y1 + pixels };
-  }
-
-  /// Lines of one pixel: the edges themselves.
-  std::uint32_t setEdges(const SearchedTile& tile)
-  {
-    const std::uint32_t rows =
-      setEdgePixels(finder_, tile, source_.width(), source_.height(), lines_);
-    if (rule_.greyByJump)
-    {
-      const SampleBlock& block = finder_.block();
-      forEachEdge(finder_.groups(),
-        [&](const SilhouetteEdge& edge)
-        {
-          const auto behind = static_cast<std::size_t>(block.indexOf(edge.i, edge.j));
-          const float jump =
-            block.depth[behind] - block.depth[static_cast<std::size_t>(frontOf(edge))];
-          const int at = TileLines::indexOf(
-            block.x + edge.i - tile.x * DepthTileSize, block.y + edge.j - tile.y * DepthTileSize);
-          lines_.strength[static_cast<std::size_t>(at)] = rule_.ramp.at(jump);
-        });
-    }
-    return rows;
+    return setCovered(all.x1 - all.x0, all.y1 - all.y0);
   }
 
   [[nodiscard]] int frontOf(const SilhouetteEdge& edge) const
@@ -143,7 +142,7 @@ private:
     }
     const int start = j * block.stride();
     const int begin = start + std::max(0, frontI - half);
-    const int end = start + std::min(block.stride(), frontI + half + 1);
+    const int end = start + std::min(block.columns * block.samples, frontI + half + 1);
     const float behind =
       block.depth[static_cast<std::size_t>(front)] + static_cast<float>(rule_.jump);
     const float farthest = rule_.backgroundLines ? InfinityF : std::numeric_limits<float>::max();

@@ -5,6 +5,8 @@
 #include "DepthSource.h"
 #include "SilhouetteRule.h"
 
+#include <tbb/cache_aligned_allocator.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,18 +33,23 @@ namespace po
 /// The window depth of pixels without a line: beyond the far plane, which has 1.
 constexpr float NoLineDepth = 2;
 
+/// Pixels of which the first begins a cache line: with a width of whole lines all rows of tiles do,
+/// and are written at once (see LineRows-inl.h).
+template <typename T>
+using LinePixels = std::vector<T, tbb::cache_aligned_allocator<T>>;
+
 /// The lines of one picture.
 struct SilhouetteImage
 {
   int width = 0;
   int height = 0;
-  std::vector<float> strength; ///< 0: no line, 1: covered by it; row by row from the bottom
+  LinePixels<float> strength; ///< 0: no line, 1: covered by it; row by row from the bottom
   /// Index of a pixel in front of the line, for each pixel that has one; empty unless asked for.
-  std::vector<std::int32_t> front;
+  LinePixels<std::int32_t> front;
   /// Share of a pixel that what is in front of its line covers, where its centre shows what is
   /// behind; weighted as the strength is, and valid where that is above 0. Empty unless asked for,
   /// and with one sample a pixel.
-  std::vector<float> inside;
+  LinePixels<float> inside;
   /// Of each tile of DepthTileSize pixels: bit j is set if its row j has lines.
   std::vector<std::uint16_t> tileRows;
 };

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 namespace po
 {
@@ -64,6 +65,39 @@ private:
   std::vector<Rim> rims_;
 };
 
+/// Edges of tiles side by side, one bit each.
+class EdgeBits
+{
+public:
+  void clear(int columns, int rows)
+  {
+    pitch_ = static_cast<std::size_t>(columns) / 8 + sizeof(std::uint64_t);
+    bits_.assign(pitch_ * static_cast<std::size_t>(rows), 0);
+  }
+
+  void set(int i, int j)
+  {
+    bits_[placeOf(i, j)] |= static_cast<std::uint8_t>(1U << (static_cast<unsigned>(i) % 8));
+  }
+
+  /// The edges at i and the 31 columns behind it.
+  [[nodiscard]] std::uint32_t at(int i, int j) const
+  {
+    std::uint64_t bits;
+    std::memcpy(&bits, bits_.data() + placeOf(i, j), sizeof bits);
+    return static_cast<std::uint32_t>(bits >> (static_cast<unsigned>(i) % 8));
+  }
+
+private:
+  [[nodiscard]] std::size_t placeOf(int i, int j) const
+  {
+    return static_cast<std::size_t>(j) * pitch_ + static_cast<std::size_t>(i) / 8;
+  }
+
+  std::size_t pitch_ = 0; ///< bytes
+  std::vector<std::uint8_t> bits_;
+};
+
 /// Paints the lines of one tile after the other along the rims of spheres.
 class RimPainter
 {
@@ -75,48 +109,42 @@ public:
   {
   }
 
-  std::uint32_t paint(const SearchedTile& searched)
+  void paint(const SearchedTiles& tiles, SilhouetteImage& image)
   {
-    x_ = searched.x * DepthTileSize;
-    y_ = searched.y * DepthTileSize;
-    columns_ = std::min(DepthTileSize, depth_.width() - x_);
-    rows_ = std::min(DepthTileSize, depth_.height() - y_);
-    const PixelRange read = pixelsAround();
-    depth_.prefetchSpheres(read);
-    if (!finder_.find(depth_, searched.edges, read, searched.range.nearest))
+    const bool any = findEdges(tiles);
+    for (int x = tiles.x; x < tiles.x + tiles.count; ++x)
     {
-      return 0;
+      const std::uint32_t rows = any ? paintTile({ x, tiles.y, 1, tiles.nearest }) : 0;
+      writeRows(painted_.lines, rows, x, tiles.y, image);
     }
-    placeEdges();
-    const SampleBlock& block = finder_.block();
-    const RimTile tile{ x_, y_, columns_, rows_, depth_.width(), depth_.height(),
-      block.depth.data(), spheres_.data(), fronts_.data(), toFront_.data(),
-      block.indexOf(x_ - block.x, y_ - block.y), block.stride() };
-    painted_.lines.strength.fill(0);
-    placeRims(block.origin);
-    brush_.paint(tile, rims_.rims(), painted_);
-    return setFronts(tile, brush_.reach(), painted_);
   }
-
-  [[nodiscard]] const TileLines& lines() const { return painted_.lines; }
 
 private:
-  /// Where the rays of the tile are expanded: the centre of the pixel in the middle.
+  /// Where the rays of a tile are expanded: the centre of the pixel in the middle.
   static constexpr double Middle = DepthTileSize / 2 + 0.5;
 
-  /// From edges, which are as far away as lines reach, two pixels more are looked at.
-  [[nodiscard]] PixelRange pixelsAround() const
+  /// Finds the edges of which lines may reach into some tiles; false if there are none.
+  bool findEdges(const SearchedTiles& tiles)
   {
-    const int around = brush_.reach() + 2;
-    return { x_ - around, y_ - around, x_ + columns_ + around, y_ + rows_ + around };
+    const PixelRange all = tiles.pixels(depth_.width(), depth_.height());
+    const PixelRange lookedAt = grow(all, brush_.reach());
+    // From edges two pixels more are looked at.
+    const PixelRange read = grow(lookedAt, 2);
+    if (!finder_.find(depth_, intersect(lookedAt, { 0, 0, depth_.width(), depth_.height() }), read,
+          tiles.nearest))
+    {
+      return false;
+    }
+    placeEdges();
+    return true;
   }
 
-  /// Sorts the edges by the spheres in front of them.
+  /// Finds the spheres in front of the edges.
   void placeEdges()
   {
     const SampleBlock& block = finder_.block();
     depth_.fillSpheres(block, spheres_);
-    rims_.clear();
+    edges_.clear(block.columns, block.rows);
     fronts_.assign(spheres_.size(), SphereScene::None);
     toFront_.resize(spheres_.size());
     forEachEdge(finder_.groups(),
@@ -131,20 +159,59 @@ private:
         const auto at = static_cast<std::size_t>(block.indexOf(edge.i, edge.j));
         fronts_[at] = sphere;
         toFront_[at] = edge.front;
-        Rim& rim = rims_.find(depth_, sphere);
-        const auto i = static_cast<unsigned>(block.x + edge.i - x_ + Rim::Border);
-        const auto j = static_cast<unsigned>(block.y + edge.j - y_ + Rim::Border);
-        rim.edges[j] |= 1U << i;
-        rim.rows |= 1U << j;
+        edges_.set(edge.i, edge.j);
       });
   }
 
-  void placeRims(double depthOrigin)
+  /// @return the rows that have lines, one bit each
+  std::uint32_t paintTile(const SearchedTiles& searched)
+  {
+    const PixelRange pixels = searched.pixels(depth_.width(), depth_.height());
+    const SampleBlock& block = finder_.block();
+    const RimTile tile{ pixels.x0, pixels.y0, pixels.x1 - pixels.x0, pixels.y1 - pixels.y0,
+      depth_.width(), depth_.height(), block.depth.data(), spheres_.data(), fronts_.data(),
+      toFront_.data(), block.indexOf(pixels.x0 - block.x, pixels.y0 - block.y), block.stride() };
+    listRims(tile);
+    if (rims_.rims().empty())
+    {
+      return 0;
+    }
+    painted_.lines.strength.fill(0);
+    placeRims(tile, block.origin);
+    brush_.paint(tile, rims_.rims(), painted_);
+    return setFronts(tile, brush_.reach(), painted_);
+  }
+
+  /// Sorts the edges around a tile by the spheres in front of them.
+  void listRims(const RimTile& tile)
+  {
+    const SampleBlock& block = finder_.block();
+    const int reach = brush_.reach();
+    const int left = tile.x - block.x - reach, below = tile.y - block.y - reach;
+    const std::uint64_t columns = (std::uint64_t(1) << (tile.columns + 2 * reach)) - 1;
+    rims_.clear();
+    for (int row = 0; row < tile.rows + 2 * reach; ++row)
+    {
+      auto edges = static_cast<std::uint32_t>(edges_.at(left, below + row) & columns);
+      const auto j = static_cast<unsigned>(row + Rim::Border - reach);
+      for (; edges != 0; edges &= edges - 1)
+      {
+        const auto column = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(edges));
+        const auto at = static_cast<std::size_t>(block.indexOf(left + column, below + row));
+        Rim& rim = rims_.find(depth_, fronts_[at]);
+        rim.edges[j] |= 1U << static_cast<unsigned>(column + Rim::Border - reach);
+        rim.rows |= 1U << j;
+      }
+    }
+  }
+
+  void placeRims(const RimTile& tile, double depthOrigin)
   {
     patches_.clear();
     for (std::size_t layer = 0; layer < depth_.layerCount(); ++layer)
     {
-      patches_.push_back(makeRayPatch(depth_.raysOf(layer).around(x_ + Middle, y_ + Middle)));
+      patches_.push_back(
+        makeRayPatch(depth_.raysOf(layer).around(tile.x + Middle, tile.y + Middle)));
     }
     for (Rim& rim : rims_.rims())
     {
@@ -158,6 +225,7 @@ private:
   const SphereDepth& depth_;
   RimBrush brush_;
   EdgeFinder finder_;
+  EdgeBits edges_; ///< of the pixels of the block
   RimList rims_;
   std::vector<RayPatch> patches_;      ///< one a layer
   std::vector<std::uint32_t> spheres_; ///< that the pixels of the block show
@@ -165,7 +233,6 @@ private:
   std::vector<std::uint32_t> fronts_;
   std::vector<std::int32_t> toFront_;
   RimLines painted_{};
-  int x_ = 0, y_ = 0, columns_ = 0, rows_ = 0;
 };
 }
 

@@ -3,12 +3,7 @@
 
 #include "SilhouetteEdges.h"
 
-#include <hwy/base.h>
-
 #include <cmath>
-#include <cstring>
-#include <type_traits>
-#include <utility>
 
 namespace po
 {
@@ -28,48 +23,6 @@ DepthRange rangeOf(
     }
   }
   return range;
-}
-
-/// Calls f(number of pixels) for the pixels of a tile's row inside of the picture: a number that
-/// the compiler knows where it can.
-template <typename Function>
-void withColumns(int left, const Function& f)
-{
-  if (left >= DepthTileSize)
-  {
-    f(std::integral_constant<int, DepthTileSize>());
-  }
-  else
-  {
-    f(left);
-  }
-}
-
-/// Copies row j of a tile to an image that may be empty.
-template <typename T>
-void copyRow(
-  const TileLines::Pixels<T>& from, int tileX, int tileY, int j, int width, std::vector<T>& to)
-{
-  if (to.empty())
-  {
-    return;
-  }
-  const int x = tileX * DepthTileSize, y = tileY * DepthTileSize + j;
-  T* target = to.data() + static_cast<std::ptrdiff_t>(y) * width + x;
-  const T* row = from.data() + TileLines::indexOf(0, j);
-  withColumns(width - x,
-    [&](auto count) { std::memcpy(target, row, sizeof(T) * static_cast<std::size_t>(count)); });
-}
-
-void clearRows(std::uint32_t rows, int tileX, int tileY, SilhouetteImage& image)
-{
-  const int x = tileX * DepthTileSize, y = tileY * DepthTileSize;
-  for (; rows != 0; rows &= rows - 1)
-  {
-    const auto j = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rows));
-    float* row = image.strength.data() + static_cast<std::ptrdiff_t>(y + j) * image.width + x;
-    withColumns(image.width - x, [row](auto count) { std::fill_n(row, int(count), 0.0F); });
-  }
 }
 
 /// Can there be an edge somewhere in `behind`, and what it lies behind in `front`, which has
@@ -92,11 +45,12 @@ bool mayHaveEdge(const SilhouetteRule& rule, DepthRange behind, const DepthRange
 }
 }
 
-std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const SilhouetteRule& rule,
-  int reach, SilhouetteImage& image, bool skipTiles)
+std::vector<SearchedTiles> tilesToSearch(const std::vector<DepthRange>& ranges,
+  const SilhouetteRule& rule, int reach, SilhouetteImage& image, bool skipTiles)
 {
+  constexpr int Most = SearchedTiles::Most;
   const int columns = depthTiles(image.width), rows = depthTiles(image.height);
-  std::vector<int> searched;
+  std::vector<SearchedTiles> searched;
   std::vector<DepthRange> threeRows(static_cast<std::size_t>(columns));
   for (int y = 0; y < rows; ++y)
   {
@@ -104,34 +58,33 @@ std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges, const Silh
     {
       threeRows[static_cast<std::size_t>(x)] = rangeOf(ranges, columns, x, x + 1, y - 1, y + 2);
     }
+    bool follows = false; // the tile to the left is searched
     for (int x = 0; x < columns; ++x)
     {
       const DepthRange around = rangeOf(threeRows, columns, x - 1, x + 2, 0, 1);
       // An edge lies behind its jump: here, unless its line may come from beside the tile.
       const DepthRange& behind =
         reach > 0 ? around : ranges[static_cast<std::size_t>(y) * columns + x];
-      if (around.hasGeometry() && !rule.drawsNothing() &&
-        (!skipTiles || mayHaveEdge(rule, behind, around)))
-      {
-        searched.push_back(y * columns + x);
-      }
-      else
+      const bool isSearched = around.hasGeometry() && !rule.drawsNothing() &&
+        (!skipTiles || mayHaveEdge(rule, behind, around));
+      if (!isSearched)
       {
         clearTile(x, y, image);
       }
+      else if (follows && x % Most != 0)
+      {
+        ++searched.back().count;
+      }
+      else
+      {
+        const int first = x / Most * Most;
+        searched.push_back(
+          { x, y, 1, rangeOf(threeRows, columns, first - 1, first + Most + 1, 0, 1).nearest });
+      }
+      follows = isSearched;
     }
   }
   return searched;
-}
-
-SearchedTile searchedTile(const DepthSource& source, int tile, int reach)
-{
-  const int columns = depthTiles(source.width()), x = tile % columns, y = tile / columns;
-  const int left = x * DepthTileSize, bottom = y * DepthTileSize;
-  return { x, y, rangeOf(source.ranges(), columns, x - 1, x + 2, y - 1, y + 2),
-    intersect({ 0, 0, source.width(), source.height() },
-      { left - reach, bottom - reach, left + DepthTileSize + reach,
-        bottom + DepthTileSize + reach }) };
 }
 
 void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFronts)
@@ -152,23 +105,7 @@ void clearTile(int tileX, int tileY, SilhouetteImage& image)
 {
   std::uint16_t& had =
     image.tileRows[static_cast<std::size_t>(tileY) * depthTiles(image.width) + tileX];
-  clearRows(had, tileX, tileY, image);
+  clearStrength(tileX, tileY, had, image);
   had = 0;
-}
-
-void writeRows(
-  const TileLines& lines, std::uint32_t rows, int tileX, int tileY, SilhouetteImage& image)
-{
-  std::uint16_t& had =
-    image.tileRows[static_cast<std::size_t>(tileY) * depthTiles(image.width) + tileX];
-  clearRows(had & ~rows, tileX, tileY, image);
-  had = static_cast<std::uint16_t>(rows);
-  for (; rows != 0; rows &= rows - 1)
-  {
-    const auto j = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rows));
-    copyRow(lines.strength, tileX, tileY, j, image.width, image.strength);
-    copyRow(lines.front, tileX, tileY, j, image.width, image.front);
-    copyRow(lines.inside, tileX, tileY, j, image.width, image.inside);
-  }
 }
 }

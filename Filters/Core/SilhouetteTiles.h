@@ -5,6 +5,7 @@
 #include "Camera.h"
 #include "SilhouetteFinder.h"
 
+#include <hwy/cache_control.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -38,54 +39,72 @@ void resizeFor(SilhouetteImage& image, const DepthSource& source, bool findFront
 void writeRows(
   const TileLines& lines, std::uint32_t rows, int tileX, int tileY, SilhouetteImage& image);
 
+/// Clears those rows of a tile, one bit each.
+void clearStrength(int tileX, int tileY, std::uint32_t rows, SilhouetteImage& image);
+
 void clearTile(int tileX, int tileY, SilhouetteImage& image);
+
+/// Tiles side by side that may have lines.
+struct SearchedTiles
+{
+  /// At most so many, of those that begin at a multiple of it.
+  static constexpr int Most = 8;
+
+  int x, y; ///< column and row of the first
+  int count;
+  /// Depth in the Most tiles that these are of, and the tiles around: whichever others are
+  /// searched.
+  double nearest;
+
+  /// The pixels in them, of a picture.
+  [[nodiscard]] PixelRange pixels(int width, int height) const
+  {
+    const int left = x * DepthTileSize, bottom = y * DepthTileSize;
+    return intersect({ 0, 0, width, height },
+      { left, bottom, left + count * DepthTileSize, bottom + DepthTileSize });
+  }
+};
+
+[[nodiscard]] inline PixelRange grow(const PixelRange& range, int pixels)
+{
+  return { range.x0 - pixels, range.y0 - pixels, range.x1 + pixels, range.y1 + pixels };
+}
 
 /// The tiles that may have lines. Those of the others that had lines before are cleared.
 /// @param reach pixels from an edge that its line can cover
-[[nodiscard]] std::vector<int> tilesToSearch(const std::vector<DepthRange>& ranges,
+[[nodiscard]] std::vector<SearchedTiles> tilesToSearch(const std::vector<DepthRange>& ranges,
   const SilhouetteRule& rule, int reach, SilhouetteImage& image, bool skipTiles);
-
-/// A tile that may have lines.
-struct SearchedTile
-{
-  int x, y;         ///< column and row of the tile
-  DepthRange range; ///< of it and the tiles around
-  PixelRange edges; ///< where edges may lie whose lines reach into it
-};
-
-/// @param tile its number
-/// @param reach pixels from an edge that its line can cover
-[[nodiscard]] SearchedTile searchedTile(const DepthSource& source, int tile, int reach);
 
 /// Paints all tiles in parallel, but those that cannot have lines.
 ///
 /// @param reach pixels from an edge that its line can cover
-/// @param makePainter makes what one thread paints with: std::uint32_t paint(searched tile) gives
-///   the rows that have lines, one bit each, and lines() all of their pixels
+/// @param makePainter makes what one thread paints with: paint(searched tiles, image) writes the
+///   rows that have lines and clears those that had some
 template <typename MakePainter>
 SilhouetteCounters paintTiles(const DepthSource& source, const SilhouetteRule& rule, int reach,
   SilhouetteImage& image, const SilhouetteOptions& options, const MakePainter& makePainter)
 {
   resizeFor(image, source, options.findFronts);
-  const std::vector<int> searched =
+  const std::vector<SearchedTiles> searched =
     tilesToSearch(source.ranges(), rule, reach, image, options.skipTiles);
-  const auto paintTile = [&](auto& painter, int number)
-  {
-    const SearchedTile tile = searchedTile(source, number, reach);
-    writeRows(painter.lines(), painter.paint(tile), tile.x, tile.y, image);
-  };
   tbb::enumerable_thread_specific<decltype(makePainter())> painters(makePainter);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, searched.size(), 32),
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, searched.size(), 4),
     [&](const tbb::blocked_range<std::size_t>& part)
     {
       auto& painter = painters.local();
       for (std::size_t i = part.begin(); i < part.end(); ++i)
       {
-        paintTile(painter, searched[i]);
+        painter.paint(searched[i], image);
       }
+      hwy::FlushStream(); // see LineRows-inl.h
     });
   const std::size_t tiles = source.ranges().size();
-  return { tiles, tiles - searched.size() };
+  std::size_t count = 0;
+  for (const SearchedTiles& some : searched)
+  {
+    count += static_cast<std::size_t>(some.count);
+  }
+  return { tiles, tiles - count };
 }
 }
 

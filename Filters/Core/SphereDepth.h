@@ -30,9 +30,6 @@ public:
   /// as many numbers as the block has depths.
   virtual void fillSpheres(const SampleBlock& block, std::vector<std::uint32_t>& numbers) const = 0;
 
-  /// Asks memory for them beforehand.
-  virtual void prefetchSpheres(const PixelRange& /*pixels*/) const {}
-
   /// Layers are spheres of one system of local coordinates.
   [[nodiscard]] virtual std::size_t layerCount() const = 0;
 

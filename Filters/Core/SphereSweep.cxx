@@ -136,22 +136,6 @@ void SphereSweep::sweepBlock(const std::vector<Vec3d>& axes, std::size_t subset,
   finishBlock();
 }
 
-/// Patterns take turns in an order that is drawn anew each time: the heights of the directions
-/// follow powers of two, as does the number of patterns, and a fixed order would show each pattern
-/// a part of the sky only.
-std::size_t SphereSweep::nextPattern()
-{
-  if (patternOrder_.empty())
-  {
-    Random random(mixBits(static_cast<std::uint64_t>(patternRounds_++)), 0, 0);
-    patternOrder_.resize(TexelPatterns::Count);
-    randomPermutation(random, patternOrder_);
-  }
-  const std::size_t pattern = patternOrder_.back();
-  patternOrder_.pop_back();
-  return pattern;
-}
-
 /// The axis of a block along which all spheres take part whatever was seen. It is drawn at random:
 /// axes at the same place in their blocks all lie in one band of heights.
 std::size_t SphereSweep::fullAxis(std::size_t axes) const
@@ -164,7 +148,7 @@ SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool al
 {
   const bool full =
     always || directions_ < FullDirections || std::isfinite(distance_) || !skips_.neverSeen;
-  AxisJob job{ axis, planeBasis(axis), nextPattern(), full, true, {} };
+  AxisJob job{ axis, planeBasis(axis), patternTurns_.next(), full, true, {} };
   for (const bool upward : { true, false })
   {
     if (!upward && ways_ == AxisWays::Forward)
@@ -217,6 +201,7 @@ void SphereSweep::finishBlock()
     if (everSeen_[i].load(std::memory_order_relaxed) != 0)
     {
       takesPart_[i] = Always;
+      records_.markSeen(static_cast<unsigned>(i));
       ++seen_;
     }
   }
@@ -321,7 +306,8 @@ void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const
   {
     const auto shiftX = static_cast<float>(random.uniform());
     const auto shiftY = static_cast<float>(random.uniform());
-    work.offsetMasks[i].build(job.directions[i].facing, shiftX, shiftY);
+    const auto shiftZ = static_cast<float>(random.uniform());
+    work.offsetMasks[i].build(job.directions[i].facing, shiftX, shiftY, shiftZ);
     job.directions[i].offsetMasks = &work.offsetMasks[i];
   }
 }

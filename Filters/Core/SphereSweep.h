@@ -124,7 +124,6 @@ private:
   void gather(const SweepScene::Band& band, const AxisJob& job, const SeenMarks& seen,
     DepthTiles& tiles) const;
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
-  [[nodiscard]] std::size_t nextPattern();
   void finishBlock();
   void judgeClosedCells(bool full);
   [[nodiscard]] SweepCounters counters(bool full) const;
@@ -144,8 +143,7 @@ private:
   std::size_t seen_ = 0; ///< of these, those that were ever seen, up to the last block
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   tbb::enumerable_thread_specific<TileWorkspace> tileSweeps_;
-  std::vector<std::uint32_t> patternOrder_; ///< those to come
-  int patternRounds_ = 0;
+  PatternTurns patternTurns_;
   std::size_t blocks_ = 0;
   std::size_t sweptAxes_ = 0; ///< of all processes, those that are black all along left out
   int epoch_ = 0;

@@ -12,27 +12,29 @@
 
 namespace po
 {
-StoredVisibility::StoredVisibility(const SweepTexels& texels, std::vector<std::uint8_t> watched)
+StoredVisibility::StoredVisibility(
+  const SweepTexels& texels, std::vector<std::uint8_t> watched, RecordMemory& memory)
   : groups_(texels.groups())
   , slots_(texels.slots())
   , watched_(std::move(watched))
+  , memory_(memory)
   , chunks_((watched_.size() + ChunkPlaces - 1) / ChunkPlaces)
 {
 }
 
 void StoredVisibility::prefetch(std::size_t place, std::size_t axis) const
 {
-  if (const Chunk* chunk = chunks_[place / ChunkPlaces].load(std::memory_order_acquire))
+  if (Chunk* chunk = chunks_[place / ChunkPlaces].load(std::memory_order_acquire))
   {
     hwy::Prefetch(&chunk->seen[axis]);
-    hwy::Prefetch(chunk->masks + maskAt(place, axis));
+    hwy::Prefetch(chunk->masks() + maskAt(place, axis));
   }
 }
 
 void StoredVisibility::keep(std::size_t place, std::size_t axis, const GroupMask* mask)
 {
   Chunk& chunk = findOrMakeChunk(place);
-  GroupMask* kept = chunk.masks + maskAt(place, axis);
+  GroupMask* kept = chunk.masks() + maskAt(place, axis);
   std::uint8_t& seen = chunk.seen[axis][place % ChunkPlaces];
   if (seen == 0)
   {
@@ -55,8 +57,9 @@ StoredVisibility::Chunk& StoredVisibility::findOrMakeChunk(std::size_t place)
     return *known;
   }
   // Two threads may make the same at once; both are equal, and one is not used.
-  Chunk* made = new (memory_.allocate<Chunk>(1)) Chunk;
-  made->masks = memory_.allocate<GroupMask>(AxesPerBlock * ChunkPlaces * groups_);
+  const std::size_t masks = AxesPerBlock * ChunkPlaces * groups_ * sizeof(GroupMask);
+  const std::size_t size = 1 + (masks + sizeof(Chunk) - 1) / sizeof(Chunk);
+  Chunk* made = new (memory_.allocate<Chunk>(size)) Chunk;
   return *(chunk.compare_exchange_strong(known, made, std::memory_order_acq_rel) ? made : known);
 }
 
@@ -96,7 +99,7 @@ void StoredVisibility::addChunk(
       if (seen != 0)
       {
         seen = 0;
-        terms[count++] = { chunk.masks + maskAt(place, k), axes[k].weight.data() };
+        terms[count++] = { chunk.masks() + maskAt(place, k), axes[k].weight.data() };
       }
     }
     if (count == 0)

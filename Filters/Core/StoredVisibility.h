@@ -23,7 +23,9 @@ class StoredVisibility
 {
 public:
   /// @param watched [places] flags of those that have sums by subset too
-  StoredVisibility(const SweepTexels& texels, std::vector<std::uint8_t> watched);
+  /// @param memory that it takes
+  StoredVisibility(
+    const SweepTexels& texels, std::vector<std::uint8_t> watched, RecordMemory& memory);
 
   /// Fetches what keep() needs, if it is there, while other work goes on.
   void prefetch(std::size_t place, std::size_t axis) const;
@@ -42,13 +44,15 @@ public:
 private:
   static constexpr std::size_t ChunkPlaces = 16;
 
-  /// Neighbours of which one was seen. Masks and marks are kept by axis: two axes never write to
-  /// the same byte.
+  /// Neighbours of which one was seen; their masks [AxesPerBlock][ChunkPlaces][groups] follow in
+  /// memory, so that no pointer to them must be waited for. Masks and marks are kept by axis: two
+  /// axes never write to the same byte.
   struct alignas(64) Chunk
   {
     std::array<std::array<std::uint8_t, ChunkPlaces>, AxesPerBlock> seen{}; ///< in this block
     std::array<float*, ChunkPlaces> sums{}; ///< [slots], then [ErrorSubsets][slots] where watched
-    GroupMask* masks;                       ///< [AxesPerBlock][ChunkPlaces][groups] where seen
+
+    [[nodiscard]] GroupMask* masks() { return reinterpret_cast<GroupMask*>(this + 1); }
   };
 
   [[nodiscard]] std::size_t maskAt(std::size_t place, std::size_t axis) const
@@ -62,7 +66,7 @@ private:
   std::size_t groups_;
   std::size_t slots_;
   std::vector<std::uint8_t> watched_; ///< flags by place
-  RecordMemory memory_;
+  RecordMemory& memory_;
   std::vector<std::atomic<Chunk*>> chunks_; ///< by place / ChunkPlaces
 };
 }

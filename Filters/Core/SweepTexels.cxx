@@ -2,6 +2,7 @@
 #include "SweepTexels.h"
 
 #include "Random.h"
+#include "Sampling.h"
 #include "TexelMap.h"
 
 #include <cmath>
@@ -86,6 +87,19 @@ TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std:
       z[i] = static_cast<float>(n.z);
     }
   }
+}
+
+std::size_t PatternTurns::next()
+{
+  if (order_.empty())
+  {
+    Random random(mixBits(rounds_++), 0, 0);
+    order_.resize(TexelPatterns::Count);
+    randomPermutation(random, order_);
+  }
+  const std::size_t pattern = order_.back();
+  order_.pop_back();
+  return pattern;
 }
 
 FacingTexels::FacingTexels(const SweepTexels& texels, const TexelPatterns& patterns,

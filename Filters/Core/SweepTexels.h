@@ -88,6 +88,19 @@ struct TexelPatterns
   }
 };
 
+/// Patterns take turns in an order that is drawn anew each time: the heights of the directions
+/// follow powers of two, as does the number of patterns, and a fixed order would show each pattern
+/// a part of the sky only.
+class PatternTurns
+{
+public:
+  [[nodiscard]] std::size_t next();
+
+private:
+  std::vector<std::uint32_t> order_; ///< those to come
+  std::uint64_t rounds_ = 0;
+};
+
 /// The texels whose points face a direction, in the frame of the projection: u and v across, w
 /// towards the light. Masks have one entry for each group, arrays one for each slot.
 struct FacingTexels

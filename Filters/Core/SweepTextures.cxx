@@ -3,7 +3,12 @@
 
 #include "Constants.h"
 #include "MaskedSums.h"
+#include "TexelCaps.h"
 
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace po
@@ -38,25 +43,47 @@ void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
   smoothing_.apply(values, shares);
 }
 
-/// Points of past epochs count by their weights, the present ones for the surface too.
+void SweepTextures::prefetch(unsigned sphere) const
+{
+  constexpr std::size_t perLine = 16; // floats
+  const float* sums = records_.sums(sphere);
+  for (std::size_t slot = 0; sums != nullptr && slot < records_.texels().slots(); slot += perLine)
+  {
+    hwy::Prefetch(sums + slot);
+  }
+}
+
 void SweepTextures::lookAt(const TexelRims& known, CutSurface& cut) const
 {
-  // One that was not seen, but is watched.
+  // Not yet: one that was seen in the last block alone, or was not seen, but is watched.
   const TexelRims rims = known.areToldApart() ? known : cut.finder.find(records_.texels(), known);
   cut.rims.assign(rims.count * GroupSize, 0.0f);
+  formula_.cutWhole(rims.outside, cut.surface);
+  for (std::size_t rim = 0; rim < rims.count; ++rim)
+  {
+    lookAtRim(rims, rim, cut);
+  }
+  weigh(rims, cut);
+}
+
+/// Points of past epochs count by their weights, the present ones for the surface too.
+void SweepTextures::lookAtRim(const TexelRims& rims, std::size_t rim, CutSurface& cut) const
+{
+  const std::size_t group = rims.rims[rim].group;
+  const std::size_t first = TexelPatterns::index(0, group * GroupSize);
   for (const SweepEpoch& epoch : records_.epochs())
   {
-    exposeTexels(records_.texels(), epoch.patterns, rims, cut.exposure);
-    for (std::size_t rim = 0; rim < rims.count; ++rim)
+    const bool isPresent = &epoch.patterns == &records_.patterns();
+    OutsideSums sums;
+    sumOutside(epoch.patterns, group, rims.capsOf(rim), rims.outside[group],
+      epoch.weights.data() + first, isPresent ? formula_.irradianceOf(group) : nullptr, sums);
+    std::transform(sums.weights.begin(), sums.weights.end(), cut.rims.data() + rim * GroupSize,
+      cut.rims.data() + rim * GroupSize, std::plus<>());
+    if (isPresent)
     {
-      const std::size_t group = rims.rims[rim].group;
-      addOverPoints(cut.exposure.bits.data() + group, records_.texels().groups(),
-        epoch.weights.data() + TexelPatterns::index(0, group * GroupSize),
-        cut.rims.data() + rim * GroupSize);
+      formula_.cutGroup(group, sums.points.data(), sums.irradiance.data(), cut.surface);
     }
   }
-  formula_.cut(cut.exposure, cut.surface);
-  weigh(rims, cut);
 }
 
 void SweepTextures::weigh(const TexelRims& rims, CutSurface& cut) const

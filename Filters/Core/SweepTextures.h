@@ -23,6 +23,9 @@ public:
   /// shares are not looked for: values 0, shares 1.
   void fill(unsigned sphere, float* values, float* shares) const;
 
+  /// Fetches what fill() needs of a sphere, while other work goes on.
+  void prefetch(unsigned sphere) const;
+
   /// Squared standard errors of a watched sphere's texels.
   [[nodiscard]] SquaredError squaredError(unsigned sphere) const;
 
@@ -33,11 +36,11 @@ private:
     OutsideSurface surface;
     std::vector<float> weights; ///< [slots] of its points that are outside: what open texels sum to
     RimFinder finder;
-    TexelExposure exposure;
     std::vector<float> rims; ///< [rimGroups][GroupSize] of weights
   };
 
   void lookAt(const TexelRims& known, CutSurface& cut) const;
+  void lookAtRim(const TexelRims& rims, std::size_t rim, CutSurface& cut) const;
   void weigh(const TexelRims& rims, CutSurface& cut) const;
   [[nodiscard]] std::vector<float> subsetWeights(const CutSurface& cut) const;
 

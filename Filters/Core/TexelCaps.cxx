@@ -46,6 +46,24 @@ void classify(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, Gro
   }
 }
 
+/// Those of the points from place i on that lie inside any of the caps.
+inline hn::Mask<Floats> areInside(const TexelPatterns& patterns, std::size_t i, const CapList& caps)
+{
+  const Floats d;
+  const auto x = hn::LoadU(d, patterns.x.data() + i);
+  const auto y = hn::LoadU(d, patterns.y.data() + i);
+  const auto z = hn::LoadU(d, patterns.z.data() + i);
+  auto inside = noLanes(d);
+  for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
+  {
+    const RimCap& cap = caps.caps[*place];
+    const auto xy = hn::MulAdd(y, hn::Set(d, cap.axis.y), hn::Mul(x, hn::Set(d, cap.axis.x)));
+    const auto height = hn::MulAdd(z, hn::Set(d, cap.axis.z), xy);
+    inside = hn::Or(inside, hn::Gt(height, hn::Set(d, cap.cosine)));
+  }
+  return inside;
+}
+
 /// The points of a pattern that lie inside any of the caps, as bits.
 inline unsigned insideOf(
   const TexelPatterns& patterns, std::size_t pattern, std::size_t group, const CapList& caps)
@@ -55,20 +73,46 @@ inline unsigned insideOf(
   for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
   {
     const std::size_t i = TexelPatterns::index(pattern, group * GroupSize + lane);
-    const auto x = hn::LoadU(d, patterns.x.data() + i);
-    const auto y = hn::LoadU(d, patterns.y.data() + i);
-    const auto z = hn::LoadU(d, patterns.z.data() + i);
-    auto inside = noLanes(d);
-    for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
-    {
-      const RimCap& cap = caps.caps[*place];
-      const auto xy = hn::MulAdd(y, hn::Set(d, cap.axis.y), hn::Mul(x, hn::Set(d, cap.axis.x)));
-      const auto height = hn::MulAdd(z, hn::Set(d, cap.axis.z), xy);
-      inside = hn::Or(inside, hn::Gt(height, hn::Set(d, cap.cosine)));
-    }
-    bits |= bitsOf(d, inside) << lane;
+    bits |= bitsOf(d, areInside(patterns, i, caps)) << lane;
   }
   return bits;
+}
+
+template <bool WithIrradiance>
+void sumPoints(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
+  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums)
+{
+  const Floats d;
+  const auto one = hn::Set(d, 1.0f);
+  for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+  {
+    const auto texels = lanesOf(d, unsigned(outside) >> lane);
+    auto points = hn::Zero(d);
+    auto weight = hn::Zero(d);
+    auto light = hn::Zero(d);
+    for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
+    {
+      const std::size_t i = TexelPatterns::index(p, group * GroupSize + lane);
+      const std::size_t inGroup = p * GroupSize + lane;
+      const auto counts = hn::AndNot(areInside(patterns, i, caps), texels);
+      points = hn::Add(points, hn::IfThenElseZero(counts, one));
+      weight = hn::Add(weight, hn::IfThenElseZero(counts, hn::LoadU(d, weights + inGroup)));
+      if constexpr (WithIrradiance)
+      {
+        light = hn::Add(light, hn::IfThenElseZero(counts, hn::LoadU(d, irradiance + inGroup)));
+      }
+    }
+    hn::StoreU(points, d, sums.points.data() + lane);
+    hn::StoreU(weight, d, sums.weights.data() + lane);
+    hn::StoreU(light, d, sums.irradiance.data() + lane);
+  }
+}
+
+void sumOverOutside(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
+  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums)
+{
+  (irradiance == nullptr ? sumPoints<false> : sumPoints<true>)(patterns, group, caps, outside,
+    weights, irradiance, sums);
 }
 
 void clearBuried(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
@@ -125,6 +169,7 @@ HWY_AFTER_NAMESPACE();
 namespace po
 {
 HWY_EXPORT(classify);
+HWY_EXPORT(sumOverOutside);
 HWY_EXPORT(clearBuried);
 HWY_EXPORT(clearRims);
 
@@ -132,6 +177,13 @@ void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, 
   GroupMask* part)
 {
   HWY_DYNAMIC_DISPATCH(classify)(discs, axis, cosine, sine, covered, part);
+}
+
+void sumOutside(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
+  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums)
+{
+  HWY_DYNAMIC_DISPATCH(sumOverOutside)
+  (patterns, group, caps, outside, weights, irradiance, sums);
 }
 
 void clearCaps(const TexelPatterns& patterns, std::size_t group, const CapList& caps,

@@ -5,6 +5,7 @@
 #include "SweepTexels.h"
 #include "TexelRims.h"
 
+#include <array>
 #include <cstddef>
 
 namespace po
@@ -20,6 +21,21 @@ void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, 
 /// @param bits of the first pattern; those of the next are `stride` further
 void clearCaps(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
   GroupMask* bits, std::size_t stride);
+
+/// Over the points of each texel of a group that lie outside all caps.
+struct OutsideSums
+{
+  std::array<float, GroupSize> points;     ///< how many there are
+  std::array<float, GroupSize> weights;    ///< sums
+  std::array<float, GroupSize> irradiance; ///< sums, where asked for
+};
+
+/// Sums over the points of one group, of all patterns.
+/// @param outside the texels that count; others have none
+/// @param weights, irradiance [TexelPatterns::Count][GroupSize] of the points of the group; the
+/// second may be null
+void sumOutside(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
+  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums);
 
 /// Clears the points of a pattern that lie inside other spheres; false if none is left.
 /// @param mask one for each group

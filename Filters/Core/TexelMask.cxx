@@ -234,94 +234,6 @@ bool behindWithin(const FacingTexels& facing, OccluderList occluders,
   return true;
 }
 
-Occluder seenFrom(const ProjectedSphere& r, const OccluderChunk& chunk, std::size_t i)
-{
-  const float scale = 1 / r.radius;
-  const float radius = chunk.radius[i] * scale;
-  return { (chunk.x[i] - r.x) * scale, (chunk.y[i] - r.y) * scale, (chunk.z[i] - r.z) * scale,
-    radius * radius };
-}
-
-/// Calls action(place) for the bits that are set.
-template <typename Action>
-void forEachBit(unsigned bits, const Action& action)
-{
-  for (; bits != 0; bits &= bits - 1)
-  {
-    action(static_cast<std::size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)));
-  }
-}
-
-using Masks = hn::CappedTag<GroupMask, 16>;
-
-/// Takes what the occluders of the set bits hide, by their places in the table; false if nothing is
-/// left. That is asked at the end only, so that the loads need not wait for each other.
-inline bool lookUp(const OffsetMasks& masks, unsigned bits, const std::int32_t* column,
-  const std::int32_t* row, GroupMask* mask)
-{
-  if (bits == 0)
-  {
-    return true;
-  }
-  const Masks d;
-  bool open = false;
-  for (std::size_t g = 0; g < OffsetMasks::Groups; g += hn::Lanes(d))
-  {
-    auto left = hn::LoadU(d, mask + g);
-    forEachBit(bits,
-      [&](std::size_t i) { left = hn::And(left, hn::LoadU(d, masks.at(column[i], row[i]) + g)); });
-    hn::StoreU(left, d, mask + g);
-    open = open || !hn::AllTrue(d, hn::Eq(left, hn::Zero(d)));
-  }
-  return open;
-}
-
-bool behindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
-  const ProjectedSphere& r, GroupMask* mask)
-{
-  const Floats d;
-  const hn::RebindToSigned<Floats> di;
-  const float touch = 4 * r.radius * r.radius;
-  const auto scale = hn::Set(d, OffsetMasks::CellsPerRadius / r.radius);
-  const auto originX = hn::Set(d, masks.originX());
-  const auto originY = hn::Set(d, masks.originY());
-  HWY_ALIGN std::int32_t column[OccluderChunk::Size];
-  HWY_ALIGN std::int32_t row[OccluderChunk::Size];
-  for (int index = occluders.first; index != OccluderList::Empty;)
-  {
-    const OccluderChunk& chunk = occluders.chunks[index];
-    unsigned apart = 0;
-    unsigned overlapping = 0;
-    for (std::size_t lane = 0; lane < OccluderChunk::Size; lane += hn::Lanes(d))
-    {
-      const auto dx = hn::Sub(hn::LoadU(d, chunk.x.data() + lane), hn::Set(d, r.x));
-      const auto dy = hn::Sub(hn::LoadU(d, chunk.y.data() + lane), hn::Set(d, r.y));
-      const auto dz = hn::Sub(hn::LoadU(d, chunk.z.data() + lane), hn::Set(d, r.z));
-      const auto gap = hn::MulAdd(dx, dx, hn::Mul(dy, dy));
-      const unsigned met = bitsOf(d, hn::Lt(gap, hn::Set(d, touch)));
-      if (met == 0)
-      {
-        continue;
-      }
-      // Touching spheres count as apart, whichever way rounding makes them.
-      const auto distance = hn::MulAdd(dz, dz, gap);
-      const unsigned cut = met & bitsOf(d, hn::Lt(distance, hn::Set(d, touch * (1 - 1e-4f))));
-      apart |= (met & ~cut) << lane;
-      overlapping |= cut << lane;
-      hn::Store(hn::ConvertTo(di, hn::MulAdd(dx, scale, originX)), di, column + lane);
-      hn::Store(hn::ConvertTo(di, hn::MulAdd(dy, scale, originY)), di, row + lane);
-    }
-    OccluderBatch batch;
-    forEachBit(overlapping, [&](std::size_t i) { batch.add(seenFrom(r, chunk, i)); });
-    if (!lookUp(masks, apart, column, row, mask) || (batch.count > 0 && !hide(facing, batch, mask)))
-    {
-      return false;
-    }
-    index = chunk.next;
-  }
-  return true;
-}
-
 void discs(const FacingTexels& facing, float a, float step, int count, float b, GroupMask* masks)
 {
   const Floats d;
@@ -353,7 +265,6 @@ HWY_EXPORT(hide);
 HWY_EXPORT(hideWithin);
 HWY_EXPORT(behind);
 HWY_EXPORT(behindWithin);
-HWY_EXPORT(behindEqual);
 HWY_EXPORT(discs);
 
 bool hideTexels(const FacingTexels& facing, const OccluderBatch& occluders, GroupMask* mask)
@@ -377,12 +288,6 @@ bool hideBehindWithin(const FacingTexels& facing, OccluderList occluders,
   const ProjectedSphere& receiver, float distance, GroupMask* mask)
 {
   return HWY_DYNAMIC_DISPATCH(behindWithin)(facing, occluders, receiver, distance, mask);
-}
-
-bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
-  const ProjectedSphere& receiver, GroupMask* mask)
-{
-  return HWY_DYNAMIC_DISPATCH(behindEqual)(facing, masks, occluders, receiver, mask);
 }
 
 void clearDiscs(

@@ -61,11 +61,6 @@ bool hideBehind(const FacingTexels& facing, OccluderList occluders, const Projec
 bool hideBehindWithin(const FacingTexels& facing, OccluderList occluders,
   const ProjectedSphere& receiver, float distance, GroupMask* mask);
 
-/// The same for occluders of the size of the receiver: pairs that do not overlap are looked up.
-/// @param mask [OffsetMasks::Groups], those beyond the groups of `facing` unused
-bool hideBehindEqual(const FacingTexels& facing, const OffsetMasks& masks, OccluderList occluders,
-  const ProjectedSphere& receiver, GroupMask* mask);
-
 /// For a row of discs of radius 1 with centres (a + k step, b), clears the texels of the facing
 /// groups that lie within disc k from masks [k][OffsetMasks::Groups].
 void clearDiscs(

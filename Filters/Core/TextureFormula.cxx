@@ -106,31 +106,38 @@ void TextureFormula::addIrradiance(
 
 void TextureFormula::cut(const TexelExposure& exposure, OutsideSurface& surface) const
 {
-  surface = whole_;
-  for (std::size_t slot = 0; slot < surface.shares.size(); ++slot)
-  {
-    const bool outside = (exposure.bits[slot / GroupSize] >> (slot % GroupSize) & 1) != 0;
-    surface.shares[slot] = outside ? 1.0f : 0.0f;
-  }
+  cutWhole(exposure.ofPattern(0, groups_), surface);
   for (const std::uint32_t group : exposure.rimGroups)
   {
-    const std::size_t first = group * GroupSize;
     const GroupMask* exposed = exposure.bits.data() + group;
     std::array<float, GroupSize> points{};
     std::array<float, GroupSize> irradiance{};
     addOverPoints(exposed, groups_, ones_.data(), points.data());
     if (!uniform_)
     {
-      addOverPoints(
-        exposed, groups_, irradiance_.data() + TexelPatterns::index(0, first), irradiance.data());
+      addOverPoints(exposed, groups_, irradianceOf(group), irradiance.data());
     }
-    for (std::size_t i = 0; i < GroupSize; ++i)
+    cutGroup(group, points.data(), irradiance.data(), surface);
+  }
+}
+
+void TextureFormula::cutWhole(const GroupMask* outside, OutsideSurface& surface) const
+{
+  surface.irradiance = whole_.irradiance;
+  surface.shares.assign(whole_.shares.size(), 0.0f);
+  addMasked(groups_, outside, whole_.shares.data(), surface.shares.data());
+}
+
+void TextureFormula::cutGroup(
+  std::size_t group, const float* points, const float* irradiance, OutsideSurface& surface) const
+{
+  for (std::size_t i = 0; i < GroupSize; ++i)
+  {
+    const std::size_t slot = group * GroupSize + i;
+    surface.shares[slot] = points[i] / TexelPatterns::Count;
+    if (!uniform_ && points[i] > 0 && points[i] < TexelPatterns::Count)
     {
-      surface.shares[first + i] = points[i] / TexelPatterns::Count;
-      if (!uniform_ && points[i] > 0 && points[i] < TexelPatterns::Count)
-      {
-        surface.irradiance[first + i] = irradiance[i] / points[i];
-      }
+      surface.irradiance[slot] = irradiance[i] / points[i];
     }
   }
 }

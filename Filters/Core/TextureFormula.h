@@ -53,6 +53,20 @@ public:
   /// @param surface is overwritten, and keeps its memory
   void cut(const TexelExposure& exposure, OutsideSurface& surface) const;
 
+  /// The same in two steps: texels that are outside as a whole, and then group by group what rims
+  /// cross.
+  void cutWhole(const GroupMask* outside, OutsideSurface& surface) const;
+  /// @param points [GroupSize] how many of a texel's points are outside
+  /// @param irradiance [GroupSize] their sum
+  void cutGroup(
+    std::size_t group, const float* points, const float* irradiance, OutsideSurface& surface) const;
+
+  /// [TexelPatterns::Count][GroupSize] of the points of a group; null where it is 1 everywhere.
+  [[nodiscard]] const float* irradianceOf(std::size_t group) const
+  {
+    return uniform_ ? nullptr : irradiance_.data() + TexelPatterns::index(0, group * GroupSize);
+  }
+
   /// Number of texels of a texture.
   [[nodiscard]] std::size_t texels() const { return areas_.size(); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TileSweep.h"
 
+#include "OffsetLookup.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,12 +20,18 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
   SweepCounters& counters = counters_[direction.full ? 1 : 0];
   std::uint64_t visited = 0;
   const std::size_t slabs = order.slabs();
+  const auto slabAt = [&](std::size_t i)
+  { return order.slab(direction.upward ? slabs - 1 - i : i); };
+  DepthOrder::Slab next = slabAt(0);
   for (std::size_t i = 0; i < slabs; ++i)
   {
-    const DepthOrder::Slab slab = order.slab(direction.upward ? slabs - 1 - i : i);
-    const auto count = static_cast<std::size_t>(slab.last - slab.first);
+    const DepthOrder::Slab slab = next;
+    next = slabAt(std::min(i + 1, slabs - 1));
     std::for_each(
-      slab.first, slab.last, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
+      next.first, next.last, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
+    std::for_each(slab.first, slab.last,
+      [this](const TileSphere& s) { records_.prefetchRims(s.sphere.index); });
+    const auto count = static_cast<std::size_t>(slab.last - slab.first);
     for (std::size_t k = 0; k < count; ++k)
     {
       const TileSphere& sphere =
@@ -71,16 +79,16 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
         return true;
       }
     }
-    const bool visible = sees(s, sphere, direction);
+    const Sight sight = look(s, sphere, direction);
     if (direction.useClosedCells)
     {
       closed_.close(sphere); // hidden or not, it closes what it covers
     }
-    if (!visible && !bounded)
+    if (sight == Sight::Nothing && !bounded)
     {
       return true;
     }
-    if (visible && s.role == TileRole::Receiver)
+    if (sight == Sight::Surface && s.role == TileRole::Receiver)
     {
       seen[sphere.index] = static_cast<std::uint8_t>(seen[sphere.index] | direction.bit());
     }
@@ -89,25 +97,25 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
   return true;
 }
 
-bool TileSweep::sees(
+TileSweep::Sight TileSweep::look(
   const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
 {
   std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
   if (!records_.clearCovered(sphere.index, mask_.data()) ||
     !passes(cells_.cellOf(sphere), sphere, direction) || !passes(cells_.wide(), sphere, direction))
   {
-    return false;
+    return Sight::Nothing;
   }
   records_.prefetchMasks(sphere.index, direction.axis);
   if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))
   {
-    return false;
+    return Sight::PointsInside;
   }
   if (tileSphere.role == TileRole::Receiver)
   {
     keep(sphere.index, direction);
   }
-  return true;
+  return Sight::Surface;
 }
 
 /// The mask of the sphere at hand, for those who have listed it.
@@ -134,7 +142,7 @@ bool TileSweep::passes(
     return hideBehindWithin(facing, occluders, receiver, direction.distance, mask_.data());
   }
   return direction.offsetMasks != nullptr
-    ? hideBehindEqual(facing, *direction.offsetMasks, occluders, receiver, mask_.data())
+    ? hideBehindEqual(*direction.offsetMasks, occluders, receiver, mask_.data())
     : hideBehind(facing, occluders, receiver, mask_.data());
 }
 }

@@ -57,8 +57,9 @@ struct SweepCounters
 ///
 /// A sphere starts with the texels that face the light; each occluder met before clears those that
 /// lie behind it. A sphere that shows no texel is no occluder: what it hides is hidden by those in
-/// front of it, up to slivers that no point of its texels lies in. Where the distance is bounded
-/// that does not hold, and all spheres occlude.
+/// front of it, up to slivers that no point of its texels lies in. One that shows points inside
+/// others alone is an occluder: it stops light that came through such slivers. Where the distance
+/// is bounded all spheres occlude.
 class TileSweep
 {
 public:
@@ -80,9 +81,17 @@ public:
   [[nodiscard]] const SweepCounters& counters(bool full) const { return counters_[full ? 1 : 0]; }
 
 private:
+  /// What a direction sees of a sphere.
+  enum class Sight
+  {
+    Nothing,
+    PointsInside, ///< other spheres, and no others
+    Surface
+  };
+
   /// False when nothing below can be seen.
   bool visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
-  [[nodiscard]] bool sees(
+  [[nodiscard]] Sight look(
     const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction);
   void keep(unsigned sphere, const SweptDirection& direction);
   [[nodiscard]] bool passes(

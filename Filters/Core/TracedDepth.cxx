@@ -6,7 +6,6 @@
 // Highway compiles this file once for each instruction set and chooses when it runs.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "TracedDepth.cxx"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
 
@@ -16,11 +15,12 @@ namespace po::HWY_NAMESPACE
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// Calls f(i) so that vectors from i on cover all of `count` numbers. The last vector overlaps with
-/// the one before it; what is shorter than a vector is left to `rest`.
+/// the one before it; what is shorter than a vector is left to `rest`, and so is all where there
+/// are no vectors: what stands in for them makes infinity finite.
 template <typename Function, typename Rest>
 inline void forEachVector(int count, int lanes, const Function& f, const Rest& rest)
 {
-  if (count < lanes)
+  if (count < lanes || lanes == 1)
   {
     for (int i = 0; i < count; ++i)
     {
@@ -63,15 +63,34 @@ inline void copyNumbers(const std::uint32_t* from, int count, std::uint32_t* to)
     [&](int i) { hn::StoreU(hn::LoadU(d, from + i), d, to + i); }, [&](int i) { to[i] = from[i]; });
 }
 
+/// Does a block, with what is behind its rows, lie in the picture?
+inline bool isInside(const SampleBlock& block, int width, int height)
+{
+  return block.x >= 0 && block.x + block.columns <= width && block.y >= 0 &&
+    block.y + block.rows <= height &&
+    (block.y + block.rows < height || block.x + block.stride() <= width);
+}
+
 /// Fills a block row by row: fillColumns(first pixel, number of pixels, target) for the columns
 /// inside of the window; those beside it repeat the border.
 template <typename T, typename FillColumns>
 inline void fillRows(
   const SampleBlock& block, int width, int height, T* target, const FillColumns& fillColumns)
 {
+  const int stride = block.stride();
+  if (isInside(block, width, height))
+  {
+    // Whole vectors: what is behind the columns is there too.
+    std::ptrdiff_t first = static_cast<std::ptrdiff_t>(block.y) * width + block.x;
+    for (int j = 0; j < block.rows; ++j, first += width, target += stride)
+    {
+      fillColumns(first, stride, target);
+    }
+    return;
+  }
   const int begin = std::clamp(-block.x, 0, block.columns);
   const int end = std::clamp(width - block.x, 0, block.columns);
-  for (int j = 0; j < block.rows; ++j, target += block.columns)
+  for (int j = 0; j < block.rows; ++j, target += stride)
   {
     const int y = std::clamp(block.y + j, 0, height - 1);
     fillColumns(
@@ -90,8 +109,6 @@ void fillDepths(const std::vector<TracedLayer>& layers, SampleBlock& block)
       for (const TracedLayer& layer : layers)
       {
         const double* t = layer.frame.t.data() + first;
-        hwy::Prefetch(t + count); // for the next block to the right
-        hwy::Prefetch(t + count + 8);
         subtractOrigin(t, count, block.origin, &layer != &layers.front(), target);
       }
     });
@@ -176,23 +193,15 @@ void TracedDepth::fillSpheres(const SampleBlock& block, std::vector<std::uint32_
   }
 }
 
-void TracedDepth::prefetchSpheres(const PixelRange& pixels) const
-{
-  const PixelRange seen = intersect(pixels, { 0, 0, width(), height() });
-  for (const TracedLayer& layer : layers_)
-  {
-    for (int y = seen.y0; y < seen.y1; ++y)
-    {
-      const std::uint32_t* row =
-        layer.frame.sphere.data() + static_cast<std::ptrdiff_t>(y) * width();
-      hwy::Prefetch(row + seen.x0);
-      hwy::Prefetch(row + seen.x1 - 1);
-    }
-  }
-}
-
 void TracedDepth::fill(SampleBlock& block) const
 {
+  const std::vector<double>& t = layers_.front().frame.t;
+  const std::ptrdiff_t next =
+    static_cast<std::ptrdiff_t>(std::max(0, block.y)) * width() + block.x + block.stride();
+  constexpr std::ptrdiff_t Size = sizeof(double);
+  block.next = { reinterpret_cast<std::uintptr_t>(t.data()) +
+      static_cast<std::uintptr_t>(Size * next),
+    Size * width(), Size };
   HWY_DYNAMIC_DISPATCH(fillDepths)(layers_, block);
 }
 }

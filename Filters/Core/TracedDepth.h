@@ -33,7 +33,6 @@ public:
   /// The spheres of the layers are counted one after the other.
   [[nodiscard]] NumberedSphere sphereOf(std::uint32_t number) const override;
   void fillSpheres(const SampleBlock& block, std::vector<std::uint32_t>& numbers) const override;
-  void prefetchSpheres(const PixelRange& pixels) const override;
   [[nodiscard]] std::size_t layerCount() const override { return layers_.size(); }
   [[nodiscard]] const PrimaryRays& raysOf(std::size_t layer) const override
   {

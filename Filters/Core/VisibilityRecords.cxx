@@ -6,8 +6,6 @@
 #include "RimFinder.h"
 #include "TexelCaps.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -35,6 +33,7 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
   , seed_(seed)
   , spheres_(log ? 0 : order.size())
   , surfaces_(log ? order.size() : 0)
+  , wasSeen_(log ? order.size() : 0, 0)
   , log_(std::move(log))
 {
   open_.total.assign(texels.slots(), 0.0f);
@@ -63,11 +62,11 @@ VisibilityRecords::VisibilityRecords(const BakeScene& scene, const SweepScene& o
     {
       isWatched[spheres_[sphere].place] = 1;
     }
-    stored_ = std::make_unique<StoredVisibility>(texels, std::move(isWatched));
+    stored_ = std::make_unique<StoredVisibility>(texels, std::move(isWatched), memory_);
   }
 }
 
-void VisibilityRecords::prefetch(unsigned sphere) const
+void VisibilityRecords::prefetchRims(unsigned sphere) const
 {
   if (compactRims_)
   {
@@ -80,26 +79,32 @@ void VisibilityRecords::prefetch(unsigned sphere) const
   }
 }
 
-bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask) const
+bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask)
 {
   if (compactRims_)
   {
-    return !compactRims_->isToldApart(sphere) || compactRims_->clearCovered(sphere, mask);
-  }
-  const TexelRims* known = rims(sphere);
-  if (known != nullptr && known->areToldApart())
-  {
-    if (!intersect(texels_.groups(), known->outside, mask))
+    if (wasSeen_[sphere] == 0 || !findCompactRims(sphere))
     {
-      return false;
+      return true;
     }
-    hwy::Prefetch(known->rims);
-    hwy::Prefetch(known->rims + 8);
-    hwy::Prefetch(known->capOf);
-    hwy::Prefetch(known->capOf + 16);
-    hwy::Prefetch(known->caps);
-    hwy::Prefetch(known->caps + 4);
+    compactRims_->tellApart(sphere, order_.source(sphere));
+    return compactRims_->clearCovered(sphere, mask);
   }
+  const TexelRims* known = spheres_[sphere].wasSeen ? tellTexelsApart(sphere) : nullptr;
+  if (known == nullptr)
+  {
+    return true;
+  }
+  if (!intersect(texels_.groups(), known->outside, mask))
+  {
+    return false;
+  }
+  hwy::Prefetch(known->rims);
+  hwy::Prefetch(known->rims + 8);
+  hwy::Prefetch(known->capOf);
+  hwy::Prefetch(known->capOf + 16);
+  hwy::Prefetch(known->caps);
+  hwy::Prefetch(known->caps + 4);
   return true;
 }
 
@@ -113,26 +118,43 @@ void VisibilityRecords::prefetchMasks(unsigned sphere, std::size_t axis) const
 
 bool VisibilityRecords::clearInside(unsigned sphere, std::size_t pattern, GroupMask* mask)
 {
-  const TexelRims* known = compactRims_ ? nullptr : rims(sphere);
-  if (known == nullptr)
+  if (compactRims_)
   {
-    Surface surface = surfaceOf(sphere).load(std::memory_order_acquire);
-    if (surface == Surface::Unknown)
-    {
-      surface = findSurface(sphere);
-    }
-    if (surface != Surface::Cut)
-    {
-      // What shows of one that only occludes inside others hides nothing that is outside.
-      return surface != Surface::Buried;
-    }
-    if (compactRims_)
-    {
-      return compactRims_->clearInside(sphere, order_.source(sphere), patterns(), pattern, mask);
-    }
-    known = rims(sphere);
+    return findCompactRims(sphere)
+      ? compactRims_->clearInside(sphere, order_.source(sphere), patterns(), pattern, mask)
+      : surface(sphere) != Surface::Buried;
   }
-  return po::clearInside(patterns(), pattern, *known, mask);
+  if (const TexelRims* known = findRims(sphere))
+  {
+    return po::clearInside(patterns(), pattern, *known, mask);
+  }
+  // What shows of one that only occludes inside others hides nothing that is outside.
+  return surface(sphere) != Surface::Buried;
+}
+
+/// Null where nothing cuts a sphere.
+const TexelRims* VisibilityRecords::findRims(unsigned sphere)
+{
+  const TexelRims* known = rims(sphere);
+  if (known != nullptr ||
+    spheres_[sphere].surface.load(std::memory_order_acquire) != Surface::Unknown)
+  {
+    // Another thread may have found them in between: rims are there before the surface is known.
+    return known != nullptr ? known : rims(sphere);
+  }
+  findSurface(sphere);
+  return rims(sphere);
+}
+
+/// Does anything cut a sphere? Out of core.
+bool VisibilityRecords::findCompactRims(unsigned sphere)
+{
+  if (!compactRims_->isListed(sphere) &&
+    surfaceOf(sphere).load(std::memory_order_acquire) == Surface::Unknown)
+  {
+    findSurface(sphere);
+  }
+  return compactRims_->isListed(sphere);
 }
 
 void VisibilityRecords::learn(unsigned sphere, Surface surface)
@@ -183,29 +205,24 @@ void VisibilityRecords::listCaps(unsigned sphere, const std::vector<BuriedCap>& 
 
 /// Most spheres that are looked at show points inside others alone; only for those that are seen it
 /// is worth while to tell texels apart.
-void VisibilityRecords::tellTexelsApart(unsigned sphere)
+const TexelRims* VisibilityRecords::tellTexelsApart(unsigned sphere)
 {
-  if (compactRims_)
-  {
-    compactRims_->tellApart(sphere, order_.source(sphere));
-    return;
-  }
-  const TexelRims* known = rims(sphere);
+  const TexelRims* known = findRims(sphere);
   if (known == nullptr || known->areToldApart())
   {
-    return;
+    return known;
   }
   // Two threads may do the same at once; it does not matter whose result stays.
   thread_local RimFinder finder;
   std::pmr::memory_resource& memory = *memory_.ofThread();
-  spheres_[sphere].rims.store(
-    copyTo(memory, finder.find(texels_, *known), texels_.groups()), std::memory_order_release);
+  const TexelRims* told = copyTo(memory, finder.find(texels_, *known), texels_.groups());
+  spheres_[sphere].rims.store(told, std::memory_order_release);
+  return told;
 }
 
 void VisibilityRecords::keep(
   unsigned sphere, std::size_t axis, bool upward, const GroupMask* facing, const GroupMask* mask)
 {
-  tellTexelsApart(sphere);
   if (!isListed(sphere))
   {
     return;
@@ -313,6 +330,10 @@ void VisibilityRecords::end(const std::vector<unsigned>& list, const std::vector
   for (const unsigned sphere : list)
   {
     // Of spheres that were not seen they are not looked at.
+    if (wasSeen_[sphere] != 0)
+    {
+      compactRims_->tellApart(sphere, order_.source(sphere));
+    }
     logged->append(compactRims_->isToldApart(sphere) ? rims(sphere) : nullptr);
   }
   loggedRims_ = std::move(logged);

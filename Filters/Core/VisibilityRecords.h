@@ -13,6 +13,8 @@
 #include "TexelRims.h"
 #include "TextureFormula.h"
 
+#include <hwy/cache_control.h>
+
 #include <atomic>
 #include <limits>
 #include <memory>
@@ -83,12 +85,24 @@ public:
     return log_ ? log_->isListed(sphere) : spheres_[sphere].place != NoPlace;
   }
 
-  /// Fetches what clearCovered() needs of a sphere, if it has been seen, while other work goes on.
-  void prefetch(unsigned sphere) const;
+  /// Fetches, while other work goes on, what prefetchRims() needs of a sphere.
+  void prefetch(unsigned sphere) const
+  {
+    log_ ? compactRims_->prefetchPlace(sphere) : hwy::Prefetch(&spheres_[sphere]);
+  }
 
-  /// Clears the bits of texels that are wholly inside, if it is known already what overlaps the
-  /// sphere; false if none is left. Fetches what clearInside() needs then.
-  bool clearCovered(unsigned sphere, GroupMask* mask) const;
+  /// Fetches what clearCovered() needs, if the sphere has been looked at.
+  void prefetchRims(unsigned sphere) const;
+
+  /// Tells that a direction of an earlier block has seen a sphere. Not while threads look at any.
+  void markSeen(unsigned sphere)
+  {
+    log_ ? void(wasSeen_[sphere] = 1) : void(spheres_[sphere].wasSeen = true);
+  }
+
+  /// Clears the bits of texels that are wholly inside others, of a sphere that was marked as seen;
+  /// false if none is left. Fetches what clearInside() needs then.
+  bool clearCovered(unsigned sphere, GroupMask* mask);
 
   /// Fetches what keep() needs of a sphere that was seen before, while other work goes on.
   void prefetchMasks(unsigned sphere, std::size_t axis) const;
@@ -159,6 +173,7 @@ private:
     std::atomic<const TexelRims*> rims{ nullptr }; ///< of a cut one
     unsigned place = NoPlace;                      ///< among the listed ones
     std::atomic<Surface> surface{ Surface::Unknown };
+    bool wasSeen = false; ///< in an earlier block
   };
 
   [[nodiscard]] const std::atomic<Surface>& surfaceOf(unsigned sphere) const
@@ -174,7 +189,9 @@ private:
   void listCaps(unsigned sphere, const std::vector<BuriedCap>& caps);
   Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
-  void tellTexelsApart(unsigned sphere);
+  [[nodiscard]] const TexelRims* findRims(unsigned sphere);
+  [[nodiscard]] bool findCompactRims(unsigned sphere);
+  [[nodiscard]] const TexelRims* tellTexelsApart(unsigned sphere);
   [[nodiscard]] bool isAlone(unsigned sphere) const;
 
   const BakeScene& scene_;
@@ -183,6 +200,7 @@ private:
   std::uint64_t seed_;
   std::vector<SphereState> spheres_;           ///< empty out of core
   std::vector<std::atomic<Surface>> surfaces_; ///< of the spheres, out of core
+  std::vector<std::uint8_t> wasSeen_;          ///< as in SphereState, out of core
   std::vector<SweepEpoch> epochs_;
   std::size_t epoch_ = 0; ///< the present one
   OpenWeights open_;

@@ -15,11 +15,16 @@
 namespace
 {
 constexpr const char* Settings[] = { "TextureResolution", "SamplesPerTexel", "TargetError",
-  "Method", "Encoding", "Storage", "BakeLight" };
+  "Method", "Encoding", "Storage", "BakeLight", "MaximumDistance", "ReuseUnchanged" };
 
 int chosen(vtkSMProxy* proxy, const char* name)
 {
   return vtkSMUncheckedPropertyHelper(proxy, name).GetAsInt();
+}
+
+double chosenNumber(vtkSMProxy* proxy, const char* name)
+{
+  return vtkSMUncheckedPropertyHelper(proxy, name).GetAsDouble();
 }
 
 /// Of the server that bakes.
@@ -64,7 +69,9 @@ void pqBakeEstimate::refresh()
     work.settings.light.emplace();
   }
   work.settings.storage = static_cast<po::Storage>(chosen(this->proxy(), "Storage"));
-  work.targetError = vtkSMUncheckedPropertyHelper(this->proxy(), "TargetError").GetAsDouble();
+  work.targetError = chosenNumber(this->proxy(), "TargetError");
+  work.settings.maximumDistance = chosenNumber(this->proxy(), "MaximumDistance");
+  work.reuseUnchanged = chosen(this->proxy(), "ReuseUnchanged") != 0;
   this->Resources->UpdatePropertyInformation();
   const std::string text = po::describe(po::estimateCost(work), work.particles,
     vtkSMPropertyHelper(this->Resources, "NumberOfCores").GetAsInt(),

@@ -67,10 +67,7 @@ void TexturePaging::open(
     return;
   }
   const auto opened = std::make_shared<EncodedTextureFile>(file);
-  const std::string warning = opened->checkParticles(points);
-  rows_.resize(static_cast<std::size_t>(points.GetNumberOfPoints()));
-  means_.resize(rows_.size());
-  opened->file().readParticles(rows_.data(), means_.data());
+  const std::string warning = opened->readParticles(points, rows_, means_);
   file_ = opened;
   if (!warning.empty())
   {

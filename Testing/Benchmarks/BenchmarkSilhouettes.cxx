@@ -158,21 +158,20 @@ Camera viewOf(const SphereCloud& cloud, double extent)
 /// Reads the depths of the tiles that may have lines.
 void readDepths(const TracedFrame& frame, const SilhouetteRule& rule, SilhouetteImage& nothing)
 {
-  const std::vector<int> tiles = tilesToSearch(frame.tiles, rule, rule.samples - 1, nothing, true);
-  const int columns = depthTiles(frame.width);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 32),
+  const std::vector<SearchedTiles> tiles =
+    tilesToSearch(frame.tiles, rule, rule.samples - 1, nothing, true);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 8),
     [&](const tbb::blocked_range<std::size_t>& part)
     {
       double farthest = 0;
       for (std::size_t at = part.begin(); at < part.end(); ++at)
       {
-        const int x = tiles[at] % columns * DepthTileSize;
-        const int y = tiles[at] / columns * DepthTileSize;
-        for (int j = y; j < std::min(y + DepthTileSize, frame.height); ++j)
+        const PixelRange pixels = tiles[at].pixels(frame.width, frame.height);
+        for (int j = pixels.y0; j < pixels.y1; ++j)
         {
           const double* row = frame.t.data() + static_cast<std::ptrdiff_t>(j) * frame.width;
           // One number of each cache line.
-          for (int i = x; i < std::min(x + DepthTileSize, frame.width); i += 8)
+          for (int i = pixels.x0; i < pixels.x1; i += 8)
           {
             farthest = std::max(farthest, row[i]);
           }

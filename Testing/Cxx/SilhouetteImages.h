@@ -42,7 +42,7 @@ inline po::SilhouetteParameters jagged(double threshold = 0)
   return parameters;
 }
 
-inline std::vector<float> lines(const std::vector<double>& depth,
+inline po::LinePixels<float> lines(const std::vector<double>& depth,
   const po::SilhouetteParameters& parameters, int width = Width, int height = Height,
   const po::SilhouetteOptions& options = {})
 {

@@ -140,6 +140,18 @@ TEST(BakeCost, OfTheFilterIsThatOfItsInputAndItsStorage)
   EXPECT_NE(std::string(filter->GetBakeEstimate()).find("Keeps less than 1 MB"), std::string::npos);
 }
 
+TEST(BakeCost, TexturesThatAreKeptForTheNextStepCount)
+{
+  po::BakeWork work = workOf(1000, Filter::Embree);
+  const double once = po::estimateCost(work).bytes;
+  work.reuseUnchanged = true;
+  EXPECT_EQ(po::estimateCost(work).bytes, once) << "without a distance none are";
+  work.settings.maximumDistance = 2;
+  EXPECT_EQ(po::estimateCost(work).bytes, once + 1000 * 8 * 256);
+  work.method = Filter::Automatic;
+  EXPECT_EQ(po::estimateCost(work).bytes, once + 1000 * 8 * 256);
+}
+
 TEST(BakeCost, IsForTheResourcesOfThisProcess)
 {
   vtkNew<vtkBakeResources> resources;

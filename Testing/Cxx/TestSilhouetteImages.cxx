@@ -163,8 +163,8 @@ TEST(Silhouettes, KeptImagesAreCleared)
 TEST(Silhouettes, ImagesOfOnePixelWidth)
 {
   const std::vector<double> depth{ 1, 2, 2 };
-  EXPECT_EQ(lines(depth, jagged(0.5), 1, 3), (std::vector<float>{ 0, 1, 0 }));
-  EXPECT_EQ(lines(depth, jagged(0.5), 3, 1), (std::vector<float>{ 0, 1, 0 }));
+  EXPECT_EQ(lines(depth, jagged(0.5), 1, 3), (po::LinePixels<float>{ 0, 1, 0 }));
+  EXPECT_EQ(lines(depth, jagged(0.5), 3, 1), (po::LinePixels<float>{ 0, 1, 0 }));
 }
 
 TEST(SilhouetteRule, ScalesWithTheData)

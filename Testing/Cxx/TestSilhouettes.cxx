@@ -10,7 +10,7 @@ using namespace silhouette_images;
 namespace
 {
 /// Fails with the pixel's position where `lines` is not what `expected` says.
-void expectLines(const std::vector<float>& lines, const std::function<bool(int, int)>& expected)
+void expectLines(const po::LinePixels<float>& lines, const std::function<bool(int, int)>& expected)
 {
   for (int j = 0; j < Height; ++j)
   {

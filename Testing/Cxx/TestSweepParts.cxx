@@ -5,6 +5,7 @@
 #include "ClosedCells.h"
 #include "Constants.h"
 #include "EstimateDifference.h"
+#include "OffsetLookup.h"
 #include "Random.h"
 #include "RimFinder.h"
 #include "Sampling.h"
@@ -162,6 +163,48 @@ TEST(TexelMask, HidesWhatThePlainFormulaHides)
       expectedLeft = expectedLeft || open;
     }
     EXPECT_EQ(left, expectedLeft);
+  }
+}
+
+TEST(OffsetMasks, LeaveWhatASphereInFrontLeavesUpToTheGrid)
+{
+  const po::SweepTexels texels(16);
+  const po::TexelPatterns patterns(texels, 1, 0);
+  const po::Vec3d direction = po::normalized(po::Vec3d{ 1, -2, 3 });
+  const po::FacingTexels facing(texels, patterns, 5, po::planeBasis(direction), direction);
+  po::Random random(4, 5, 6);
+  const auto number = [&](double low, double high)
+  { return static_cast<float>(low + (high - low) * random.uniform()); };
+  constexpr double halfCell = 0.5 / static_cast<double>(po::OffsetMasks::CellsPerRadius) + 1e-4;
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    po::OffsetMasks masks;
+    masks.build(facing, number(0, 1), number(0, 1), number(0, 1));
+    const po::ProjectedSphere receiver{ number(-9, 9), number(-9, 9), number(-9, 9), 1.5f, 0 };
+    const float a = number(-2, 2), b = number(-2, 2), height = number(0, 3);
+    const float r = receiver.radius;
+    po::OccluderChunk chunk{};
+    chunk.x.fill(HUGE_VALF);
+    chunk.y.fill(HUGE_VALF);
+    chunk.x[3] = receiver.x + a * r;
+    chunk.y[3] = receiver.y + b * r;
+    chunk.z[3] = receiver.z + height * r;
+    chunk.next = po::OccluderList::Empty;
+    std::vector<po::GroupMask> mask = facing.facing;
+    mask.resize(po::OffsetMasks::Groups, 0);
+    po::hideBehindEqual(masks, { &chunk, 0 }, receiver, mask.data());
+    const bool overlaps = a * a + b * b + height * height < 4;
+    for (std::size_t i = 0; i < facing.u.size(); ++i)
+    {
+      const double across = std::hypot(double(facing.u[i] - a), double(facing.v[i] - b));
+      const double climb = double(height - facing.w[i]);
+      const bool nearEdge = std::abs(across - 1) < halfCell * std::sqrt(2.0);
+      if (facing.w[i] > 0 && !nearEdge && (!overlaps || std::abs(climb) > halfCell))
+      {
+        const bool open = (mask[i / po::GroupSize] >> (i % po::GroupSize) & 1) != 0;
+        EXPECT_EQ(open, across > 1 || (overlaps && climb < 0)) << a << " " << b << " " << height;
+      }
+    }
   }
 }
 

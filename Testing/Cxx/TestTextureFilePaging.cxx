@@ -147,6 +147,61 @@ TEST_F(TextureFilePaging, ShowsWhatATableInMemoryShowsAndReadsOnlyWhatIsSeen)
   EXPECT_EQ(paged.mapper->GetNumberOfResidentTextures(), 0);
 }
 
+/// Some of the points, the last one first, with their textures.
+vtkSmartPointer<vtkPolyData> reversedPart(
+  vtkPolyData* whole, const std::function<bool(vtkIdType)>& keep)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataType(whole->GetPoints()->GetDataType());
+  result->GetPointData()->CopyAllocate(whole->GetPointData());
+  for (vtkIdType i = whole->GetNumberOfPoints() - 1; i >= 0; --i)
+  {
+    if (keep(i))
+    {
+      const vtkIdType place = points->InsertNextPoint(whole->GetPoint(i));
+      result->GetPointData()->CopyData(whole->GetPointData(), i, place);
+    }
+  }
+  result->SetPoints(points);
+  result->GetFieldData()->ShallowCopy(whole->GetFieldData());
+  return result;
+}
+
+TEST_F(TextureFilePaging, AnOtherOrderAndAPartFindTheirTexturesByPlace)
+{
+  const vtkSmartPointer<vtkPolyData> whole = memory.mapper->GetInput();
+  for (const bool all : { true, false })
+  {
+    SCOPED_TRACE(all ? "another order" : "a part");
+    const auto keep = [&](vtkIdType i) { return all || i % 3 == 1; };
+    const auto part = reversedPart(whole, keep);
+    memory.mapper->SetInputData(part);
+    vtkNew<vtkPolyData> bare;
+    bare->DeepCopy(part);
+    bare->GetPointData()->RemoveArray(po::OcclusionArray);
+    bare->GetPointData()->RemoveArray(po::TextureIndexArray);
+    bare->GetFieldData()->Initialize();
+    paged.mapper->SetInputData(bare);
+    look(30, 1);
+    ErrorCatcher errors(paged.mapper);
+    expectSamePicture();
+    EXPECT_EQ(errors.count(), 0) << errors.text();
+    EXPECT_GT(paged.mapper->GetNumberOfResidentTextures(), 50);
+  }
+}
+
+TEST_F(TextureFilePaging, APartWithAParticleThatTheFileLacksIsAnError)
+{
+  const auto part = reversedPart(paged.mapper->GetInput(), [](vtkIdType i) { return i % 2 == 0; });
+  part->GetPoints()->SetPoint(7, 0.25, 0.25, 0.25);
+  paged.mapper->SetInputData(part);
+  ErrorCatcher errors(paged.mapper);
+  (void)grab(paged.window);
+  EXPECT_EQ(errors.count(), 1);
+  EXPECT_NE(errors.text().find("particles, but the input has"), std::string::npos) << errors.text();
+}
+
 TEST_F(TextureFilePaging, FileTakesThePlaceOfTexturesOfThePoints)
 {
   bakeRandom(paged.mapper->GetInput(), 2);

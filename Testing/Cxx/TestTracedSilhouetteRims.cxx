@@ -153,7 +153,7 @@ SilhouetteParameters byJump(bool grey)
 
 /// The largest jump from the front sphere's rim to the edges at a pixel or around it; 0: none.
 double largestJumpAround(
-  const TracedFrame& frame, const std::vector<float>& edges, double rim, int x, int y)
+  const TracedFrame& frame, const LinePixels<float>& edges, double rim, int x, int y)
 {
   double largest = 0;
   for (int j = y - 1; j <= y + 1; ++j)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TracedSilhouetteTestScene.h"
 
+#include <hwy/targets.h>
 #include <tbb/global_control.h>
 
 #include <cmath>
@@ -84,6 +85,38 @@ TEST(TracedSilhouettes, SkippedTilesChangeNoBitAndThreadsNeither)
   }
 }
 
+/// Pictures of whole cache lines (320) and others; the second one replaces what the first one had.
+TEST(TracedSilhouettes, AllInstructionSetsGiveTheSameBits)
+{
+  for (const int width : { 320, 301, 40 })
+  {
+    const Traced near(heap(), lookAtOrigin(true, 50, 12, width, 100, 1, 200));
+    const Traced far(heap(), lookAtOrigin(true, 70, 22, width, 100, 1, 200));
+    for (const int samples : { 1, 4 })
+    {
+      const SilhouetteParameters parameters = threshold(3, samples);
+      const SilhouetteImage expected = far.lines(parameters, { true, true });
+      EXPECT_GT(count(expected.strength), 100U);
+      for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+      {
+        hwy::SetSupportedTargetsForTest(target);
+        SilhouetteImage image = near.lines(parameters, { true, true });
+        far.find(parameters, { true, true }, image);
+        EXPECT_EQ(image.strength, expected.strength) << hwy::TargetName(target);
+        EXPECT_EQ(image.tileRows, expected.tileRows) << hwy::TargetName(target);
+        for (std::size_t pixel = 0; pixel < expected.strength.size(); ++pixel)
+        {
+          if (expected.strength[pixel] > 0)
+          {
+            ASSERT_EQ(image.front[pixel], expected.front[pixel]) << hwy::TargetName(target);
+          }
+        }
+      }
+      hwy::SetSupportedTargetsForTest(0);
+    }
+  }
+}
+
 /// Bigler 2004, figure 4.4: smaller thresholds give more lines, and never lose one; the absolute
 /// value of the Laplacian gives double lines where the positive side gives one.
 TEST(TracedSilhouettes, ThresholdSweepOfTheThesis)
@@ -91,7 +124,7 @@ TEST(TracedSilhouettes, ThresholdSweepOfTheThesis)
   const Camera camera = lookAtOrigin(true, 60, 14, 301, 215, 1, 200);
   const Traced traced(heap(), camera);
   const TracedFrame& frame = traced.renderer.frame();
-  std::vector<float> larger(frame.pixels(), 0);
+  LinePixels<float> larger(frame.pixels(), 0);
   std::size_t last = 0;
   for (const double value : { 10.0, 1.0, 0.1, 0.01, 0.0 })
   {

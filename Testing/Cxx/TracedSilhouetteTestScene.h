@@ -62,9 +62,15 @@ struct Traced
     const SilhouetteParameters& parameters, const SilhouetteOptions& options = {}) const
   {
     SilhouetteImage image;
+    find(parameters, options, image);
+    return image;
+  }
+
+  void find(const SilhouetteParameters& parameters, const SilhouetteOptions& options,
+    SilhouetteImage& image) const
+  {
     findTracedSilhouettes(TracedDepth({ layer() }),
       resolve(parameters, { renderer.cloud().scale, 20 }), image, options);
-    return image;
   }
 };
 
@@ -77,7 +83,7 @@ inline SilhouetteParameters threshold(double value, int samples)
 }
 
 /// What the image filter makes of samples x samples rays a pixel.
-inline std::vector<float> filtered(const std::vector<std::array<double, 4>>& spheres, Camera camera,
+inline LinePixels<float> filtered(const std::vector<std::array<double, 4>>& spheres, Camera camera,
   const SilhouetteParameters& parameters)
 {
   camera.width *= parameters.samples;
@@ -91,7 +97,7 @@ inline std::vector<float> filtered(const std::vector<std::array<double, 4>>& sph
   return image.strength;
 }
 
-inline std::size_t count(const std::vector<float>& strength)
+inline std::size_t count(const LinePixels<float>& strength)
 {
   return static_cast<std::size_t>(
     std::count_if(strength.begin(), strength.end(), [](float s) { return s > 0; }));

@@ -103,11 +103,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         filter->SetLightDirection(x, y, z);
         break;
       }
-      case 18:
-        filter->SetReuseUnchanged(bytes.ConsumeBool());
-        break;
       case 17:
         filter->SetLightIntensity(anyNumber(bytes));
+        break;
+      case 18:
+        filter->SetReuseUnchanged(bytes.ConsumeBool());
         break;
       default:
         filter->SetConstantRadius(anyNumber(bytes));

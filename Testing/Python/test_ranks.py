@@ -62,6 +62,18 @@ SaveScreenshot(r"{name}-plain.png", plain, ImageResolution=[300, 200])
 lined.SilhouetteVisibility = 0
 lined.Opacity = 0.5
 SaveScreenshot(r"{name}-translucent.png", plain, ImageResolution=[300, 200])
+if {writes}:
+    SaveData(r"{textures}", baked)
+paged = CreateRenderView(ViewSize=[300, 200], OrientationAxesVisibility=0, UseFXAA=0)
+if port:
+    paged.RemoteRenderThreshold = {threshold}
+bare = Show(particles, paged)  # each process finds the textures of its particles in the file
+bare.SetRepresentationType("Ray-Traced Spheres")
+bare.ShadingMode = "Ambient Occlusion"
+bare.TextureFile = r"{textures}"
+ColorBy(bare, ("POINTS", "charge"))
+ResetCamera(paged)
+SaveScreenshot(r"{name}-paged.png", paged, ImageResolution=[300, 200])
 baked.UpdatePropertyInformation()
 with open(r"{name}.json", "w") as file:
     json.dump({{key: baked.GetPropertyValue(key) for key in {counters}}}, file)
@@ -75,6 +87,7 @@ def run_session(command, folder, name, port=0, threshold=0):
     path = os.path.join(folder, name)
     with open(path + ".py", "w", encoding="utf-8") as file:
         file.write(SESSION.format(port=port, threshold=threshold, name=path, counters=COUNTERS,
+                                  textures=os.path.join(folder, "textures.exr"), writes=name == "alone",
                                   data=os.path.join(folder, "molecule.pvtp")))
     done = subprocess.run([*command, path + ".py"], capture_output=True, text=True, timeout=600,
                           env=servers.mpi_environment(), check=False)
@@ -103,7 +116,7 @@ def main():
             with servers.running([*two, pvserver]) as port:
                 others.append(run_session([pvpython], folder, name, port, threshold))
         for other in others:
-            for suffix in (".png", "-plain.png"):
+            for suffix in (".png", "-plain.png", "-paged.png"):
                 images.compare_files(other + suffix, reference + suffix, rms=RMS, outliers=OUTLIERS)
             suffix = "-translucent.png"
             images.compare_files(other + suffix, reference + suffix, rms=TRANSLUCENT_RMS, outliers=1)
