@@ -125,7 +125,8 @@ public:
   [[nodiscard]] const float* sums(unsigned sphere) const;
   /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
-  /// What overlaps a sphere that was looked at, told apart if it was seen; null if nothing does.
+  /// What overlaps a sphere that was looked at, told apart if it was looked at after it was marked
+  /// as seen; null if nothing does.
   [[nodiscard]] const TexelRims* rims(unsigned sphere) const;
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
