@@ -28,16 +28,11 @@ public:
       table_[rim.slot].sphere = SphereScene::None;
     }
     rims_.clear();
-    last_ = SphereScene::None;
   }
 
   /// The rim of the sphere of a number.
   Rim& find(const SphereDepth& depth, std::uint32_t sphere)
   {
-    if (sphere == last_)
-    {
-      return rims_[place_]; // edges side by side are mostly of one sphere
-    }
     std::size_t slot = sphere % Size;
     while (table_[slot].sphere != sphere && table_[slot].sphere != SphereScene::None)
     {
@@ -50,9 +45,7 @@ public:
       hwy::Prefetch(depth.sphereOf(sphere).sphere);
       rims_.emplace_back(sphere, slot);
     }
-    last_ = sphere;
-    place_ = entry.place;
-    return rims_[place_];
+    return rims_[entry.place];
   }
 
   [[nodiscard]] std::vector<Rim>& rims() { return rims_; }
@@ -70,8 +63,6 @@ private:
 
   std::array<Entry, Size> table_{};
   std::vector<Rim> rims_;
-  std::uint32_t last_ = SphereScene::None; ///< sphere that was asked for
-  std::uint32_t place_ = 0;                ///< of its rim
 };
 
 /// Edges of tiles side by side, one bit each.
