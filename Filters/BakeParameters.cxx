@@ -289,7 +289,10 @@ OcclusionParameters describeBake(
   parameters.set("occluderTriangles", static_cast<long long>(report.occluderTriangles));
   parameters.set("occluderSpheres", static_cast<long long>(report.occluderSpheres));
   parameters.set("refinedParticles", static_cast<long long>(report.refined));
-  parameters.set("reusedParticles", static_cast<long long>(report.reused));
+  if (filter.GetReuseUnchanged())
+  {
+    parameters.set("reusedParticles", static_cast<long long>(report.reused));
+  }
   return parameters;
 }
 }

@@ -153,8 +153,8 @@ public:
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
   /// What overlaps a sphere that was looked at, told apart if it was looked at after it was marked
   /// as seen; null if nothing does. Out of core it is good until the calling thread's next call of
-  /// any function, and when the sweep has ended there are those of spheres that were seen or watched
-  /// alone.
+  /// any function, and when the sweep has ended there are those of spheres that were seen or
+  /// watched alone.
   [[nodiscard]] const TexelRims* rims(unsigned sphere) const;
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
