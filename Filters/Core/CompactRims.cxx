@@ -273,11 +273,11 @@ bool CompactRims::clearCovered(unsigned sphere, GroupMask* mask) const
   return intersect(texels_.groups(), outside.data(), mask);
 }
 
-bool CompactRims::clearInside(unsigned sphere, unsigned source, const TexelPatterns& patterns,
-  std::size_t pattern, GroupMask* mask) const
+/// @param mask only rims that cross what is left of it matter; null: all
+/// @return good until the calling thread's next call of any function
+const TexelRims& CompactRims::read(Code code, unsigned source, const GroupMask* mask) const
 {
   ReadRims& read = readRims();
-  const Code code = codeOf(sphere);
   const bool apart = (code & Apart) != 0;
   if (apart)
   {
@@ -288,27 +288,18 @@ bool CompactRims::clearInside(unsigned sphere, unsigned source, const TexelPatte
   {
     takeList(bytesOf(code), set_, source, read);
   }
-  return po::clearInside(patterns, pattern, read.finish(apart), mask);
+  return read.finish(apart);
+}
+
+bool CompactRims::clearInside(unsigned sphere, unsigned source, const TexelPatterns& patterns,
+  std::size_t pattern, GroupMask* mask) const
+{
+  return po::clearInside(patterns, pattern, read(codeOf(sphere), source, mask), mask);
 }
 
 const TexelRims* CompactRims::find(unsigned sphere, unsigned source) const
 {
   const Code code = codeOf(sphere);
-  if (code == None)
-  {
-    return nullptr;
-  }
-  ReadRims& read = readRims();
-  const bool apart = (code & Apart) != 0;
-  if (apart)
-  {
-    const std::uint8_t* at = takeOutside(bytesOf(code), texels_, read.outside);
-    takeApart(at, set_, source, nullptr, read);
-  }
-  else
-  {
-    takeList(bytesOf(code), set_, source, read);
-  }
-  return &read.finish(apart);
+  return code == None ? nullptr : &read(code, source, nullptr);
 }
 }

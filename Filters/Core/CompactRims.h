@@ -82,6 +82,7 @@ private:
     return codes_[sphere].load(std::memory_order_acquire);
   }
   [[nodiscard]] const std::uint8_t* bytesOf(Code code) const;
+  [[nodiscard]] const TexelRims& read(Code code, unsigned source, const GroupMask* mask) const;
   [[nodiscard]] Code store(const std::vector<std::uint8_t>& bytes);
   [[nodiscard]] Code addChunk(std::size_t bytes);
 
