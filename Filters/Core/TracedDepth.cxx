@@ -14,13 +14,16 @@ namespace po::HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// What stands in for vectors where there are none makes infinity finite when it rounds.
+constexpr bool HasVectors = HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128;
+
 /// Calls f(i) so that vectors from i on cover all of `count` numbers. The last vector overlaps with
 /// the one before it; what is shorter than a vector is left to `rest`, and so is all where there
-/// are no vectors: what stands in for them makes infinity finite.
+/// are no vectors.
 template <typename Function, typename Rest>
 inline void forEachVector(int count, int lanes, const Function& f, const Rest& rest)
 {
-  if (count < lanes || lanes == 1)
+  if (!HasVectors || count < lanes)
   {
     for (int i = 0; i < count; ++i)
     {

@@ -86,8 +86,6 @@ TEST(TracedSilhouettes, SkippedTilesChangeNoBitAndThreadsNeither)
 }
 
 /// Pictures of whole cache lines (320) and others; the second one replaces what the first one had.
-/// Not where Highway emulates vectors of four lanes, as it does for processors without any when
-/// Clang compiles it: there some pixels of lines beside the background differ.
 TEST(TracedSilhouettes, AllInstructionSetsGiveTheSameBits)
 {
   for (const int width : { 320, 301, 40 })
@@ -101,10 +99,6 @@ TEST(TracedSilhouettes, AllInstructionSetsGiveTheSameBits)
       EXPECT_GT(count(expected.strength), 100U);
       for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
       {
-        if (target == HWY_EMU128)
-        {
-          continue;
-        }
         hwy::SetSupportedTargetsForTest(target);
         SilhouetteImage image = near.lines(parameters, { true, true });
         far.find(parameters, { true, true }, image);
