@@ -88,7 +88,7 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
     {
       return true;
     }
-    if (sight == Sight::Surface && s.role == TileRole::Receiver)
+    if (sight == Sight::Surface)
     {
       seen[sphere.index] = static_cast<std::uint8_t>(seen[sphere.index] | direction.bit());
     }
@@ -106,15 +106,17 @@ TileSweep::Sight TileSweep::look(
   {
     return Sight::Nothing;
   }
+  // Others occlude, whether their points lie inside others or not.
+  if (tileSphere.role != TileRole::Receiver)
+  {
+    return Sight::Occluder;
+  }
   records_.prefetchMasks(sphere.index, direction.axis);
   if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))
   {
-    return Sight::PointsInside;
+    return Sight::Occluder;
   }
-  if (tileSphere.role == TileRole::Receiver)
-  {
-    keep(sphere.index, direction);
-  }
+  keep(sphere.index, direction);
   return Sight::Surface;
 }
 

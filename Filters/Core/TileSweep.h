@@ -85,8 +85,8 @@ private:
   enum class Sight
   {
     Nothing,
-    PointsInside, ///< other spheres, and no others
-    Surface
+    Occluder, ///< of a receiver points inside others alone, or something of a sphere that is none
+    Surface   ///< of a receiver
   };
 
   /// False when nothing below can be seen.
