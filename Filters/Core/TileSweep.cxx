@@ -65,7 +65,7 @@ void TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
     {
       return;
     }
-    if (sight == Sight::Surface && s.role == TileRole::Receiver)
+    if (sight == Sight::Surface)
     {
       seen[sphere.index] = static_cast<std::uint8_t>(seen[sphere.index] | direction.bit());
     }
@@ -82,15 +82,17 @@ TileSweep::Sight TileSweep::look(
   {
     return Sight::Nothing;
   }
+  // Others occlude, whether their points lie inside others or not.
+  if (tileSphere.role != TileRole::Receiver)
+  {
+    return Sight::Occluder;
+  }
   records_.prefetchMasks(sphere.index, direction.axis);
   if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))
   {
-    return Sight::PointsInside;
+    return Sight::Occluder;
   }
-  if (tileSphere.role == TileRole::Receiver)
-  {
-    keep(sphere.index, direction);
-  }
+  keep(sphere.index, direction);
   return Sight::Surface;
 }
 

@@ -67,8 +67,8 @@ private:
   enum class Sight
   {
     Nothing,
-    PointsInside, ///< other spheres, and no others
-    Surface
+    Occluder, ///< of a receiver points inside others alone, or something of a sphere that is none
+    Surface   ///< of a receiver
   };
 
   void visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
