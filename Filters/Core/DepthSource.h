@@ -81,6 +81,10 @@ struct SampleBlock
   /// Of the block to the right, which is likely to follow: asked for while this one is searched,
   /// piece by piece, since memory can answer only so many questions at once.
   ComingRows next;
+  /// Are the spheres of pixels around edges read too? Set before the block is filled.
+  bool readsSpheres = false;
+  /// Of this block then: asked for where edges are looked for.
+  ComingRows spheres;
 
   /// From row to row: whole vectors. What is behind a row has any value.
   [[nodiscard]] int stride() const { return (columns * samples + 7) / 8 * 8; }

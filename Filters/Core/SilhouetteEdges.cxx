@@ -251,6 +251,10 @@ std::size_t findEdges(
     EdgeGroup& group = work.groups[found];
     group.i = work.groups[at].i;
     group.j = work.groups[at].j;
+    if (block.readsSpheres)
+    {
+      hwy::Prefetch(block.spheres.at(group.i, group.j));
+    }
     const int left = tested.end - group.i;
     const std::uint32_t inside = left < 32 ? (1U << left) - 1 : ~0U;
     const EdgeTest test(
@@ -277,10 +281,11 @@ void EdgeWork::reserve(std::size_t count)
   }
 }
 
-EdgeFinder::EdgeFinder(const SilhouetteRule& rule, int samples)
+EdgeFinder::EdgeFinder(const SilhouetteRule& rule, int samples, bool readsSpheres)
   : rule_(rule)
   , samples_(samples)
 {
+  block_.readsSpheres = readsSpheres;
 }
 
 void EdgeFinder::placeBackground()

@@ -85,7 +85,8 @@ class EdgeFinder
 {
 public:
   /// @param samples along each side of a pixel
-  EdgeFinder(const SilhouetteRule& rule, int samples);
+  /// @param readsSpheres see SampleBlock
+  EdgeFinder(const SilhouetteRule& rule, int samples, bool readsSpheres = false);
 
   /// Searches some pixels of a picture, row by row from the bottom. False if there is no edge.
   /// @param read pixels that the block will have: two samples around the searched ones, or more

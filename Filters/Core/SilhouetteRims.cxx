@@ -17,7 +17,7 @@ public:
   RimPainter(const SphereDepth& depth, const SilhouetteRule& rule)
     : depth_(depth)
     , brush_(rule)
-    , finder_(rule, 1)
+    , finder_(rule, 1, true)
   {
   }
 

@@ -132,6 +132,19 @@ namespace po
 HWY_EXPORT(fillDepths);
 HWY_EXPORT(fillSpheresOf);
 
+namespace
+{
+/// Rows of a picture from some pixel on.
+template <typename T>
+ComingRows rowsFrom(const std::vector<T>& pixels, std::ptrdiff_t first, int width)
+{
+  constexpr std::ptrdiff_t Size = sizeof(T);
+  return { reinterpret_cast<std::uintptr_t>(pixels.data()) +
+      static_cast<std::uintptr_t>(Size * first),
+    Size * width, Size };
+}
+}
+
 TracedDepth::TracedDepth(std::vector<TracedLayer> layers)
   : layers_(std::move(layers))
 {
@@ -195,13 +208,14 @@ void TracedDepth::fillSpheres(const SampleBlock& block, std::vector<std::uint32_
 
 void TracedDepth::fill(SampleBlock& block) const
 {
-  const std::vector<double>& t = layers_.front().frame.t;
-  const std::ptrdiff_t next =
-    static_cast<std::ptrdiff_t>(std::max(0, block.y)) * width() + block.x + block.stride();
-  constexpr std::ptrdiff_t Size = sizeof(double);
-  block.next = { reinterpret_cast<std::uintptr_t>(t.data()) +
-      static_cast<std::uintptr_t>(Size * next),
-    Size * width(), Size };
+  const TracedFrame& front = layers_.front().frame;
+  const std::ptrdiff_t first =
+    static_cast<std::ptrdiff_t>(std::max(0, block.y)) * width() + block.x;
+  block.next = rowsFrom(front.t, first + block.stride(), width());
+  if (block.readsSpheres)
+  {
+    block.spheres = rowsFrom(front.sphere, first, width());
+  }
   HWY_DYNAMIC_DISPATCH(fillDepths)(layers_, block);
 }
 }
