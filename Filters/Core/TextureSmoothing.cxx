@@ -15,7 +15,7 @@ namespace po::HWY_NAMESPACE
 {
 using Tap = TextureSmoothing::Tap;
 
-/// S of the texels of a row.
+/// Of the texels of a row, the areas around weighted by the Gaussian.
 void sumRow(const Tap* first, const Tap* last, const float* areas, std::size_t columns, float* sums)
 {
   const Floats d;
@@ -32,14 +32,15 @@ void sumRow(const Tap* first, const Tap* last, const float* areas, std::size_t c
 
 /// @param row where it begins in the padded arrays
 void smoothRow(const Tap* first, const Tap* last, std::size_t row, const float* values,
-  const float* areas, const float* scales, std::size_t columns, float* smoothed)
+  const float* areas, const float* scales, const float* factors, std::size_t columns,
+  float* smoothed)
 {
   const Floats d;
   for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
   {
     const auto own = hn::LoadU(d, values + row + i);
     const auto scale = hn::LoadU(d, scales + row + i);
-    auto sum = own;
+    auto sum = hn::Zero(d);
     for (const Tap* tap = first; tap != last; ++tap)
     {
       const std::size_t other = tap->offset + i;
@@ -47,7 +48,7 @@ void smoothRow(const Tap* first, const Tap* last, std::size_t row, const float* 
       const auto flow = hn::Mul(part, hn::Min(scale, hn::LoadU(d, scales + other)));
       sum = hn::MulAdd(flow, hn::Sub(hn::LoadU(d, values + other), own), sum);
     }
-    hn::StoreU(sum, d, smoothed + i);
+    hn::StoreU(hn::MulAdd(hn::LoadU(d, factors + i), sum, own), d, smoothed + i);
   }
 }
 }
@@ -70,6 +71,9 @@ namespace
 {
 /// Neighbours of less weight are left out.
 constexpr double SmallestKernel = 0.02;
+
+/// Steps towards equal S. Errors do not fall further with a third.
+constexpr int Scalings = 2;
 
 double widthOf(int resolution, int directions)
 {
@@ -147,23 +151,50 @@ void TextureSmoothing::pad(const float* texels, std::vector<float>& padded) cons
   }
 }
 
-void TextureSmoothing::weigh(const float* shares, Weights& weights) const
+void TextureSmoothing::sumOverKernel(
+  const std::vector<float>& padded, std::vector<float>& sums) const
 {
-  std::vector<float> texels(side_ * side_ + GroupSize);
-  std::transform(areas_.begin(), areas_.end(), shares, texels.begin(), std::multiplies<>());
-  pad(texels.data(), weights.areas);
+  sums.resize(side_ * side_ + GroupSize);
   for (std::size_t row = 0; row < side_; ++row)
   {
-    float* sums = texels.data() + row * side_;
     HWY_DYNAMIC_DISPATCH(sumRow)
-    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], weights.areas.data(), side_,
-      sums);
+    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], padded.data(), side_,
+      sums.data() + row * side_);
   }
-  for (std::size_t i = 0; i < side_ * side_; ++i)
+}
+
+void TextureSmoothing::weigh(const float* shares, Weights& weights) const
+{
+  const std::size_t texels = side_ * side_;
+  std::vector<float> areas(texels);
+  std::vector<float> sums;
+  std::transform(areas_.begin(), areas_.end(), shares, areas.begin(), std::multiplies<>());
+  std::vector<float>& factors = weights.factors;
+  factors.assign(texels + GroupSize, 0.0f);
+  std::transform(
+    shares, shares + texels, factors.begin(), [](float share) { return share > 0 ? 1.0f : 0.0f; });
+  const auto sumScaled = [&]
   {
-    texels[i] = shares[i] > 0 ? 1 / texels[i] : 0.0f;
+    std::vector<float> scaled(texels);
+    std::transform(
+      areas.begin(), areas.end(), factors.begin(), scaled.begin(), std::multiplies<>());
+    pad(scaled.data(), weights.areas);
+    sumOverKernel(weights.areas, sums);
+  };
+  sumScaled();
+  for (int i = 0; i < Scalings; ++i)
+  {
+    for (std::size_t texel = 0; texel < texels; ++texel)
+    {
+      factors[texel] = factors[texel] > 0 ? std::sqrt(factors[texel] / sums[texel]) : 0.0f;
+    }
+    sumScaled();
   }
-  pad(texels.data(), weights.scales);
+  for (std::size_t texel = 0; texel < texels; ++texel)
+  {
+    sums[texel] = factors[texel] > 0 ? 1 / (factors[texel] * sums[texel]) : 0.0f;
+  }
+  pad(sums.data(), weights.scales);
 }
 
 void TextureSmoothing::apply(float* values, const float* shares) const
@@ -188,7 +219,8 @@ void TextureSmoothing::apply(float* values, const float* shares) const
   {
     HWY_DYNAMIC_DISPATCH(smoothRow)
     (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], rowOffset(row),
-      padded.data(), weights.areas.data(), weights.scales.data(), side_, smoothed.data());
+      padded.data(), weights.areas.data(), weights.scales.data(),
+      weights.factors.data() + row * side_, side_, smoothed.data());
     std::copy_n(smoothed.begin(), side_, values + row * side_);
   }
 }
