@@ -15,18 +15,30 @@ namespace po::HWY_NAMESPACE
 {
 using Tap = TextureSmoothing::Tap;
 
+/// Adds up term(tap) over the taps, in two sums, so that one need not wait for the other.
+template <typename Term>
+hn::Vec<Floats> sumOverTaps(const Tap* first, const Tap* last, const Term& term)
+{
+  const Floats d;
+  auto even = hn::Zero(d);
+  auto odd = hn::Zero(d);
+  for (; last - first > 1; first += 2)
+  {
+    even = term(first[0], even);
+    odd = term(first[1], odd);
+  }
+  return hn::Add(first == last ? even : term(*first, even), odd);
+}
+
 /// Of the texels of a row, the areas around weighted by the Gaussian.
 void sumRow(const Tap* first, const Tap* last, const float* areas, std::size_t columns, float* sums)
 {
   const Floats d;
   for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
   {
-    auto sum = hn::Zero(d);
-    for (const Tap* tap = first; tap != last; ++tap)
-    {
-      sum = hn::MulAdd(hn::Set(d, tap->kernel), hn::LoadU(d, areas + tap->offset + i), sum);
-    }
-    hn::StoreU(sum, d, sums + i);
+    const auto addArea = [&](const Tap& tap, hn::Vec<Floats> sum)
+    { return hn::MulAdd(hn::Set(d, tap.kernel), hn::LoadU(d, areas + tap.offset + i), sum); };
+    hn::StoreU(sumOverTaps(first, last, addArea), d, sums + i);
   }
 }
 
@@ -40,15 +52,42 @@ void smoothRow(const Tap* first, const Tap* last, std::size_t row, const float* 
   {
     const auto own = hn::LoadU(d, values + row + i);
     const auto scale = hn::LoadU(d, scales + row + i);
-    auto sum = hn::Zero(d);
-    for (const Tap* tap = first; tap != last; ++tap)
+    const auto addFlow = [&](const Tap& tap, hn::Vec<Floats> sum)
     {
-      const std::size_t other = tap->offset + i;
-      const auto part = hn::Mul(hn::Set(d, tap->kernel), hn::LoadU(d, areas + other));
+      const std::size_t other = tap.offset + i;
+      const auto part = hn::Mul(hn::Set(d, tap.kernel), hn::LoadU(d, areas + other));
       const auto flow = hn::Mul(part, hn::Min(scale, hn::LoadU(d, scales + other)));
-      sum = hn::MulAdd(flow, hn::Sub(hn::LoadU(d, values + other), own), sum);
-    }
-    hn::StoreU(hn::MulAdd(hn::LoadU(d, factors + i), sum, own), d, smoothed + i);
+      return hn::MulAdd(flow, hn::Sub(hn::LoadU(d, values + other), own), sum);
+    };
+    const auto change = sumOverTaps(first, last, addFlow);
+    hn::StoreU(hn::MulAdd(hn::LoadU(d, factors + i), change, own), d, smoothed + i);
+  }
+}
+
+/// d becomes sqrt(d / S'), where S' is S without its own d; 0 stays.
+void scaleFactors(const float* sums, std::size_t texels, float* factors)
+{
+  const Floats d;
+  const auto zero = hn::Zero(d);
+  for (std::size_t i = 0; i < texels; i += hn::Lanes(d))
+  {
+    const auto factor = hn::LoadU(d, factors + i);
+    const auto scaled = hn::Sqrt(hn::Div(factor, hn::LoadU(d, sums + i)));
+    hn::StoreU(hn::IfThenElseZero(hn::Gt(factor, zero), scaled), d, factors + i);
+  }
+}
+
+/// 1 / S, or 0 where d is 0, from S without its own d.
+void invertSums(const float* factors, std::size_t texels, float* sums)
+{
+  const Floats d;
+  const auto zero = hn::Zero(d);
+  for (std::size_t i = 0; i < texels; i += hn::Lanes(d))
+  {
+    const auto factor = hn::LoadU(d, factors + i);
+    const auto sum = hn::Mul(factor, hn::LoadU(d, sums + i));
+    const auto inverse = hn::Div(hn::Set(d, 1.0f), sum);
+    hn::StoreU(hn::IfThenElseZero(hn::Gt(factor, zero), inverse), d, sums + i);
   }
 }
 }
@@ -66,6 +105,8 @@ namespace po
 {
 HWY_EXPORT(sumRow);
 HWY_EXPORT(smoothRow);
+HWY_EXPORT(scaleFactors);
+HWY_EXPORT(invertSums);
 
 namespace
 {
@@ -151,49 +192,41 @@ void TextureSmoothing::pad(const float* texels, std::vector<float>& padded) cons
   }
 }
 
+/// S of all texels, each without its own d.
 void TextureSmoothing::sumOverKernel(
-  const std::vector<float>& padded, std::vector<float>& sums) const
+  const std::vector<float>& outside, Weights& weights, std::vector<float>& sums) const
 {
-  sums.resize(side_ * side_ + GroupSize);
+  thread_local std::vector<float> scaled;
+  scaled.resize(outside.size());
+  std::transform(
+    outside.begin(), outside.end(), weights.factors.begin(), scaled.begin(), std::multiplies<>());
+  pad(scaled.data(), weights.areas);
+  sums.resize(outside.size() + GroupSize);
   for (std::size_t row = 0; row < side_; ++row)
   {
     HWY_DYNAMIC_DISPATCH(sumRow)
-    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], padded.data(), side_,
+    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], weights.areas.data(), side_,
       sums.data() + row * side_);
   }
 }
 
 void TextureSmoothing::weigh(const float* shares, Weights& weights) const
 {
+  thread_local std::vector<float> outside;
+  thread_local std::vector<float> sums;
   const std::size_t texels = side_ * side_;
-  std::vector<float> areas(texels);
-  std::vector<float> sums;
-  std::transform(areas_.begin(), areas_.end(), shares, areas.begin(), std::multiplies<>());
-  std::vector<float>& factors = weights.factors;
-  factors.assign(texels + GroupSize, 0.0f);
-  std::transform(
-    shares, shares + texels, factors.begin(), [](float share) { return share > 0 ? 1.0f : 0.0f; });
-  const auto sumScaled = [&]
-  {
-    std::vector<float> scaled(texels);
-    std::transform(
-      areas.begin(), areas.end(), factors.begin(), scaled.begin(), std::multiplies<>());
-    pad(scaled.data(), weights.areas);
-    sumOverKernel(weights.areas, sums);
-  };
-  sumScaled();
+  outside.resize(texels);
+  std::transform(areas_.begin(), areas_.end(), shares, outside.begin(), std::multiplies<>());
+  weights.factors.assign(texels + GroupSize, 0.0f);
+  std::transform(shares, shares + texels, weights.factors.begin(),
+    [](float share) { return share > 0 ? 1.0f : 0.0f; });
   for (int i = 0; i < Scalings; ++i)
   {
-    for (std::size_t texel = 0; texel < texels; ++texel)
-    {
-      factors[texel] = factors[texel] > 0 ? std::sqrt(factors[texel] / sums[texel]) : 0.0f;
-    }
-    sumScaled();
+    sumOverKernel(outside, weights, sums);
+    HWY_DYNAMIC_DISPATCH(scaleFactors)(sums.data(), texels, weights.factors.data());
   }
-  for (std::size_t texel = 0; texel < texels; ++texel)
-  {
-    sums[texel] = factors[texel] > 0 ? 1 / (factors[texel] * sums[texel]) : 0.0f;
-  }
+  sumOverKernel(outside, weights, sums);
+  HWY_DYNAMIC_DISPATCH(invertSums)(weights.factors.data(), texels, sums.data());
   pad(sums.data(), weights.scales);
 }
 

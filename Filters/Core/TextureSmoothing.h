@@ -62,7 +62,8 @@ private:
   /// Rows, continued at both ends as they go around.
   void pad(const float* texels, std::vector<float>& padded) const;
   void weigh(const float* shares, Weights& weights) const;
-  void sumOverKernel(const std::vector<float>& padded, std::vector<float>& sums) const;
+  void sumOverKernel(
+    const std::vector<float>& outside, Weights& weights, std::vector<float>& sums) const;
 
   std::size_t side_ = 0; ///< T; 0: nothing to do
   std::size_t margin_ = 0;
