@@ -12,6 +12,8 @@
 #include <hwy/foreach_target.h> // must come before highway.h
 #include <hwy/highway.h>
 
+#include "TexelLanes-inl.h"
+
 #ifndef po_ClosedCells_cxx
 #define po_ClosedCells_cxx
 namespace po
@@ -20,17 +22,17 @@ namespace
 {
 constexpr float Open = -HUGE_VALF;
 
-/// Cells [left, right) and rows [bottom, top), in full.
-struct CellRange
-{
-  int left, right, bottom, top;
-};
+/// Cells to each side that a receiver may reach from the cell of its centre.
+constexpr int Reach = ClosedCells::CellsPerReach;
 
-/// In cells.
-struct CellDisc
+/// How much lower than its highest point a receiver is in cells so far away, at least, along one of
+/// the two axes: see ClosedCells::finish().
+using Drops = std::array<float, 2 * Reach + 1>;
+
+[[maybe_unused]] BlockBits firstBits(std::size_t count)
 {
-  float x, y, radius, z;
-};
+  return count == ProjectedBlock::Capacity ? ~BlockBits(0) : (BlockBits(1) << count) - 1;
+}
 }
 }
 #endif
@@ -44,6 +46,12 @@ using Cells = hn::CappedTag<float, 8>;
 using Columns = hn::RebindToSigned<Cells>;
 constexpr int MostLanes = 8;
 
+/// In cells.
+struct CellDisc
+{
+  float x, y, radius, z;
+};
+
 /// Columns [left, right) of some rows.
 struct RowSpans
 {
@@ -52,12 +60,12 @@ struct RowSpans
 };
 
 /// The cells that a disc covers wholly, of as many rows as a vector has lanes.
-inline void findSpans(const CellDisc& disc, int row, int side, RowSpans& spans)
+inline void findSpans(const CellDisc& disc, int row, int columns, RowSpans& spans)
 {
   const Cells d;
   const Columns di;
   const auto zero = hn::Zero(d);
-  const auto end = hn::Set(d, static_cast<float>(side));
+  const auto end = hn::Set(d, static_cast<float>(columns));
   // A large disc may reach beyond all integers.
   const auto within = [&](hn::Vec<Cells> place)
   { return hn::ConvertTo(di, hn::Min(hn::Max(place, zero), end)); };
@@ -75,71 +83,130 @@ inline void findSpans(const CellDisc& disc, int row, int side, RowSpans& spans)
   hn::Store(within(hn::Add(x, halfWidth)), di, spans.right);
 }
 
-/// Those of the lanes [0, count).
-inline hn::Mask<Cells> firstLanes(int count)
-{
-  return hn::FirstN(Cells(), static_cast<std::size_t>(std::min(count, MostLanes)));
-}
-
-/// Closes the open ones of the columns [left, right); returns how many of them receivers reach.
-inline int closeRow(CellGrid& grid, int row, int left, int right, float z)
+/// Raises heights of cells that are lower, of the lanes that are set.
+inline void raise(float* cells, float height, hn::Mask<Cells> lanes)
 {
   const Cells d;
-  const Columns di;
-  float* cells = grid.height.data() + row * grid.side;
-  const bool reached = row >= grid.inner && row < grid.side - grid.inner;
-  const auto firstReached = hn::Set(di, grid.inner - 1);
-  const auto endReached = hn::Set(di, reached ? grid.side - grid.inner : 0);
-  std::size_t closed = 0;
-  for (int column = left; column < right; column += static_cast<int>(hn::Lanes(d)))
+  const auto known = hn::LoadU(d, cells);
+  const auto raised = hn::And(lanes, hn::Lt(known, hn::Set(d, height)));
+  if (!hn::AllFalse(d, raised))
   {
-    const auto known = hn::LoadU(d, cells + column);
-    // A closed one is higher: z falls.
-    const auto open = hn::And(hn::Eq(known, hn::Set(d, Open)), firstLanes(right - column));
-    if (hn::AllFalse(d, open))
-    {
-      continue;
-    }
-    hn::StoreU(hn::IfThenElse(open, hn::Set(d, z), known), d, cells + column);
-    const auto place = hn::Iota(di, column);
-    const auto inner = hn::And(hn::Gt(place, firstReached), hn::Lt(place, endReached));
-    closed += hn::CountTrue(d, hn::And(open, hn::RebindMask(d, inner)));
+    hn::StoreU(hn::IfThenElse(raised, hn::Set(d, height), known), d, cells);
   }
-  return static_cast<int>(closed);
 }
 
-int closeDisc(CellGrid& grid, const CellDisc& disc, int bottom, int top)
+inline void closeDisc(const CellDisc& disc, const CellGrid& grid, float* up, float* down)
 {
+  const Cells d;
+  const auto limit = [](float place, int end) { return std::clamp(place, 0.0f, float(end)); };
+  const float lowest = disc.y - disc.radius;
+  const int bottom = lowest > 0 ? static_cast<int>(limit(lowest, grid.rows)) + 1 : 0;
+  const int top = static_cast<int>(limit(disc.y + disc.radius, grid.rows));
   RowSpans spans;
-  int closed = 0;
-  for (int first = bottom; first < top; first += static_cast<int>(hn::Lanes(Cells())))
+  for (int first = bottom; first < top; first += static_cast<int>(hn::Lanes(d)))
   {
-    findSpans(disc, first, grid.side, spans);
-    const int count = std::min(top - first, static_cast<int>(hn::Lanes(Cells())));
+    findSpans(disc, first, grid.columns, spans);
+    const int count = std::min(top - first, static_cast<int>(hn::Lanes(d)));
     for (int i = 0; i < count; ++i)
     {
-      closed += closeRow(grid, first + i, spans.left[i], spans.right[i], disc.z);
-    }
-  }
-  return closed;
-}
-
-bool areClosed(const CellGrid& grid, const CellRange& range, float highest)
-{
-  const Cells d;
-  for (int row = range.bottom; row < range.top; ++row)
-  {
-    const float* cells = grid.height.data() + row * grid.side;
-    for (int column = range.left; column < range.right; column += static_cast<int>(hn::Lanes(d)))
-    {
-      const auto isOpen = hn::Lt(hn::LoadU(d, cells + column), hn::Set(d, highest));
-      if (!hn::AllFalse(d, hn::And(isOpen, firstLanes(range.right - column))))
+      const int row = (first + i) * grid.columns;
+      for (int column = spans.left[i]; column < spans.right[i];
+           column += static_cast<int>(hn::Lanes(d)))
       {
-        return false;
+        const int lanes = std::min(spans.right[i] - column, static_cast<int>(hn::Lanes(d)));
+        const auto covered = hn::FirstN(d, static_cast<std::size_t>(lanes));
+        raise(up + row + column, disc.z, covered);
+        raise(down + row + column, -disc.z, covered);
       }
     }
   }
-  return true;
+}
+
+void closeAll(const ProjectedBlock& spheres, const CellGrid& grid, float* up, float* down)
+{
+  for (std::size_t i = 0; i < spheres.count; ++i)
+  {
+    // A little less than the disc: rounding may then cost time, but never a wrong answer.
+    const CellDisc disc{ (spheres.x[i] - grid.lowX) * grid.perCell,
+      (spheres.y[i] - grid.lowY) * grid.perCell, spheres.radius[i] * grid.perCell * (1 - 1e-5f),
+      spheres.z[i] };
+    closeDisc(disc, grid, up, down);
+  }
+}
+
+/// For `count` cells the least height of those around them, `step` apart, where those farther away
+/// count for more.
+inline void lowestAround(
+  const float* heights, int step, std::size_t count, const Drops& drops, float* result)
+{
+  const Floats d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d))
+  {
+    auto lowest = hn::Set(d, HUGE_VALF);
+    for (int k = -Reach; k <= Reach; ++k)
+    {
+      const auto drop = hn::Set(d, drops[static_cast<std::size_t>(k + Reach)]);
+      const float* neighbours = heights + static_cast<std::ptrdiff_t>(i) + k * step;
+      lowest = hn::Min(lowest, hn::Add(hn::LoadU(d, neighbours), drop));
+    }
+    hn::StoreU(lowest, d, result + i);
+  }
+}
+
+void lookAround(
+  const CellGrid& grid, const Drops& drops, CellHeights& heights, std::vector<float>& alongRows)
+{
+  const auto inner = static_cast<std::size_t>(grid.columns - 2 * Reach);
+  for (int row = 0; row < grid.rows; ++row)
+  {
+    const int first = row * grid.columns + Reach;
+    lowestAround(heights.closed.data() + first, 1, inner, drops, alongRows.data() + first);
+  }
+  for (int row = Reach; row < grid.rows - Reach; ++row)
+  {
+    const int first = row * grid.columns + Reach;
+    lowestAround(
+      alongRows.data() + first, grid.columns, inner, drops, heights.around.data() + first);
+  }
+}
+
+/// Receivers whose highest points are below the height of the cell of their centre.
+HiddenSpheres findBelow(
+  const ProjectedBlock& spheres, const CellGrid& grid, const float* up, const float* down)
+{
+  const Floats d;
+  const hn::RebindToSigned<Floats> di;
+  const auto cellOf = [&](const float* places, float low)
+  {
+    const auto offset =
+      hn::Mul(hn::Sub(hn::LoadU(d, places), hn::Set(d, low)), hn::Set(d, grid.perCell));
+    // Clamped before it is an integer, with a cell to spare on either side.
+    return hn::ConvertTo(di,
+      hn::Min(hn::Max(offset, hn::Zero(d)), hn::Set(d, float(std::max(grid.columns, grid.rows)))));
+  };
+  const auto within = [&](auto cell, int cells) {
+    return hn::And(hn::Gt(cell, hn::Set(di, Reach - 1)), hn::Lt(cell, hn::Set(di, cells - Reach)));
+  };
+  HiddenSpheres hidden;
+  for (std::size_t i = 0; i < spheres.count; i += hn::Lanes(d))
+  {
+    const auto column = cellOf(spheres.x.data() + i, grid.lowX);
+    const auto row = cellOf(spheres.y.data() + i, grid.lowY);
+    const auto known = hn::And(within(column, grid.columns), within(row, grid.rows));
+    const auto cell = hn::Add(hn::Mul(row, hn::Set(di, grid.columns)), column);
+    const auto place = hn::IfThenElseZero(known, cell);
+    const auto z = hn::LoadU(d, spheres.z.data() + i);
+    const auto radius = hn::LoadU(d, spheres.radius.data() + i);
+    const auto bits = [&](hn::Vec<Floats> top, const float* heights)
+    {
+      const auto isBelow = hn::Le(top, hn::GatherIndex(d, heights, place));
+      return BlockBits(bitsOf(d, hn::And(isBelow, hn::RebindMask(d, known)))) << i;
+    };
+    hidden.upward |= bits(hn::Add(radius, z), up);
+    hidden.downward |= bits(hn::Sub(radius, z), down);
+  }
+  const BlockBits present = firstBits(spheres.count);
+  return { hidden.upward & present, hidden.downward & present };
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -147,73 +214,67 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace po
 {
-HWY_EXPORT(closeDisc);
-HWY_EXPORT(areClosed);
+HWY_EXPORT(closeAll);
+HWY_EXPORT(lookAround);
+HWY_EXPORT(findBelow);
 
 namespace
 {
-constexpr float CellWidth = 0.5f;     ///< in reaches
-constexpr float MostCells = 256;      ///< along a side
-constexpr float Margin = 3;           ///< in reaches: what halo spheres cover
-constexpr std::size_t BeyondLast = 8; ///< what vectors reach
-
-/// A position (in cells) within the grid as an integer: a large sphere may reach beyond all
-/// integers.
-int within(float position, int side)
-{
-  return static_cast<int>(std::clamp(position, 0.0f, static_cast<float>(side)));
+constexpr float MostCells = 512;       ///< along a side
+constexpr float Margin = 3.5f;         ///< in reaches: halo spheres, two away, reach one farther
+constexpr std::size_t BeyondLast = 32; ///< what vectors reach
 }
 
-/// The first cell that begins at or after a position; `side` or more if there is none.
-int firstWhole(float position, int side)
+void ClosedCells::begin(const PatchArea& area, float reach)
 {
-  return position > 0 ? within(position, side) + 1 : 0;
-}
-}
-
-void ClosedCells::begin(const DepthTile& tile, float reach)
-{
-  const float width = tile.width + 2 * Margin * reach;
+  const float width = area.highX - area.lowX + 2 * Margin * reach;
+  const float height = area.highY - area.lowY + 2 * Margin * reach;
   reach_ = reach;
-  lowX_ = tile.x - Margin * reach;
-  lowY_ = tile.y - Margin * reach;
-  const float cell = std::max(CellWidth * reach, width / MostCells);
-  perCell_ = 1 / cell;
-  cells_.side = static_cast<int>(std::ceil(width / cell));
-  const auto side = static_cast<std::size_t>(cells_.side);
-  cells_.height.assign(side * side + BeyondLast, Open);
-  cells_.inner = static_cast<int>((Margin - 1.01f) * reach / cell);
-  const int across = cells_.side - 2 * cells_.inner;
-  open_ = across * across;
-  lowest_ = Open;
-}
-
-void ClosedCells::close(const ProjectedSphere& s)
-{
-  // A little less than the disc: rounding may then cost time, but never a wrong answer.
-  const CellDisc disc{ (s.x - lowX_) * perCell_, (s.y - lowY_) * perCell_,
-    s.radius * perCell_ * (1 - 1e-5f), s.z };
-  const int bottom = firstWhole(disc.y - disc.radius, cells_.side);
-  const int top = within(disc.y + disc.radius, cells_.side);
-  const int closed = HWY_DYNAMIC_DISPATCH(closeDisc)(cells_, disc, bottom, top);
-  open_ -= closed;
-  lowest_ = closed > 0 ? s.z : lowest_;
-}
-
-bool ClosedCells::hides(const ProjectedSphere& s) const
-{
-  const float lowX = s.x - s.radius - lowX_;
-  const float lowY = s.y - s.radius - lowY_;
-  if (lowX < 0 || lowY < 0)
+  // A little more than a share of the reach: rounding must not let a receiver reach one cell more.
+  const float cell =
+    std::max(reach / CellsPerReach * (1 + 1e-4f), std::max(width, height) / MostCells);
+  const auto along = [cell](float length)
+  { return std::max(static_cast<int>(std::ceil(length / cell)), 2 * Reach + 1); };
+  grid_ = { area.lowX - Margin * reach, area.lowY - Margin * reach, cell, 1 / cell, along(width),
+    along(height) };
+  const std::size_t cells =
+    static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(grid_.rows) + BeyondLast;
+  for (CellHeights* heights : { &up_, &down_ })
   {
-    return false;
+    heights->closed.assign(cells, Open);
+    heights->around.resize(cells);
   }
-  const int side = cells_.side;
-  const auto cellAt = [&](float offset) { return within(offset * perCell_, side); };
-  const CellRange range{ cellAt(lowX), cellAt(s.x + s.radius - lowX_) + 1, cellAt(lowY),
-    cellAt(s.y + s.radius - lowY_) + 1 };
-  return range.right <= side && range.top <= side &&
-    HWY_DYNAMIC_DISPATCH(areClosed)(cells_, range, s.z + s.radius);
+  alongRows_.resize(cells);
+}
+
+void ClosedCells::close(const ProjectedBlock& spheres)
+{
+  HWY_DYNAMIC_DISPATCH(closeAll)(spheres, grid_, up_.closed.data(), down_.closed.data());
+}
+
+/// Finds for every cell how high the highest point of a receiver may be, whose centre lies there,
+/// for it to be hidden. At a distance a from its centre a sphere of radius r is lower than its
+/// highest point by r - sqrt(r^2 - a^2), at least a^2 / 2 r = x^2 / 2 r + y^2 / 2 r. These terms
+/// are added to the heights of closed cells, along rows and then along columns, and the least sum
+/// counts.
+void ClosedCells::finish()
+{
+  Drops drops;
+  for (int k = -Reach; k <= Reach; ++k)
+  {
+    const float gap =
+      std::min(static_cast<float>(std::max(std::abs(k) - 1, 0)) * grid_.cell, reach_);
+    drops[static_cast<std::size_t>(k + Reach)] = gap * gap / (2 * reach_);
+  }
+  for (CellHeights* heights : { &up_, &down_ })
+  {
+    HWY_DYNAMIC_DISPATCH(lookAround)(grid_, drops, *heights, alongRows_);
+  }
+}
+
+HiddenSpheres ClosedCells::hidden(const ProjectedBlock& spheres) const
+{
+  return HWY_DYNAMIC_DISPATCH(findBelow)(spheres, grid_, up_.around.data(), down_.around.data());
 }
 }
 #endif

@@ -2,45 +2,61 @@
 #ifndef po_ClosedCells_h
 #define po_ClosedCells_h
 
+#include "BlockProjection.h"
 #include "DepthTiles.h"
 
+#include <array>
 #include <vector>
 
 namespace po
 {
-/// The cells of ClosedCells, row after row.
-struct CellGrid
+/// The cells of ClosedCells, seen from one end of the axis: row after row.
+struct CellHeights
 {
-  std::vector<float> height; ///< below it a cell is closed; -infinity in an open one. Vectors may
-                             ///< reach beyond the last
-  int side = 0;              ///< cells along each side
-  int inner = 0;             ///< cells of the margin that no receiver reaches
+  std::vector<float> closed; ///< below it a cell is closed, -infinity in an open one
+  std::vector<float> around; ///< see ClosedCells::hidden()
 };
 
-/// Small square cells of a tile that one occluder covers wholly: whatever lies below its centre
-/// there is hidden. Tells spheres that are buried under others by a few loads.
-///
-/// Occluders must come from the light downward; heights grow towards the light.
+/// Where the cells lie. Vectors may reach beyond the last one.
+struct CellGrid
+{
+  float lowX = 0, lowY = 0, cell = 1, perCell = 1;
+  int columns = 0, rows = 0;
+};
+
+/// A bit for each sphere of a block: what is hidden when the light comes from where z grows, and
+/// when it comes from the other side.
+struct HiddenSpheres
+{
+  BlockBits upward = 0, downward = 0;
+};
+
+/// Small square cells of a patch of the projection that one sphere covers wholly: whatever lies
+/// behind its centre there is hidden. Tells spheres that are buried under others by one load,
+/// before anything else is done with them. Both ends of the axis are treated at once.
 class ClosedCells
 {
 public:
-  /// Opens all cells and lays them over a tile.
+  static constexpr int CellsPerReach = 4;
+
+  /// Opens all cells and lays them over a patch.
   /// @param reach the largest radius of a receiver
-  void begin(const DepthTile& tile, float reach);
+  void begin(const PatchArea& area, float reach);
 
-  void close(const ProjectedSphere& occluder);
+  /// Closes what spheres cover, in any order.
+  void close(const ProjectedBlock& spheres);
 
-  /// All of the sphere's texels are hidden; false if that cannot be told so simply.
-  [[nodiscard]] bool hides(const ProjectedSphere& sphere) const;
+  /// To be called when all are closed, before hidden().
+  void finish();
 
-  /// No receiver of the tile whose centre is at `z` or below shows anything.
-  [[nodiscard]] bool hidesAllBelow(float z) const { return open_ == 0 && z + reach_ <= lowest_; }
+  /// Receivers of which all points are hidden; not all of those, see finish().
+  [[nodiscard]] HiddenSpheres hidden(const ProjectedBlock& spheres) const;
 
 private:
-  CellGrid cells_;
-  float lowX_ = 0, lowY_ = 0, perCell_ = 1, reach_ = 0;
-  float lowest_ = 0; ///< height of the latest cell that was closed, of those that receivers reach
-  int open_ = 0;     ///< open cells that receivers reach
+  CellGrid grid_;
+  float reach_ = 0;
+  CellHeights up_, down_;
+  std::vector<float> alongRows_;
 };
 }
 

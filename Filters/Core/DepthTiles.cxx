@@ -71,6 +71,13 @@ void DepthTiles::begin(std::size_t patch)
   members_.clear();
 }
 
+PatchArea DepthTiles::area() const
+{
+  const auto at = [this](float low, int tile) { return low + static_cast<float>(tile) * width_; };
+  return { at(lowX_, patch_.left), at(lowY_, patch_.bottom), at(lowX_, patch_.right),
+    at(lowY_, patch_.top) };
+}
+
 std::size_t DepthTiles::homeOf(const ProjectedSphere& s) const
 {
   const int column = static_cast<int>((s.x - lowX_) * perWidth_);
@@ -106,16 +113,16 @@ bool DepthTiles::mayReach(float x, float y, float distance, float radius) const
   return !tilesWithin(x, y, distance + slack + radius + reach_).isEmpty();
 }
 
-void DepthTiles::add(const ProjectedSphere& sphere, bool sameBand)
+void DepthTiles::add(const ProjectedSphere& sphere, bool sameBand, std::uint8_t hidden)
 {
   const Range range = tilesWithin(sphere.x, sphere.y, sphere.radius + reach_);
   if (!range.isEmpty())
   {
     const auto inPatch = [](int tile, int first)
     { return static_cast<std::uint16_t>(tile - first); };
-    members_.push_back(
-      { sphere, sameBand, inPatch(range.left, patch_.left), inPatch(range.right, patch_.left),
-        inPatch(range.bottom, patch_.bottom), inPatch(range.top, patch_.bottom) });
+    members_.push_back({ sphere, sameBand, hidden, inPatch(range.left, patch_.left),
+      inPatch(range.right, patch_.left), inPatch(range.bottom, patch_.bottom),
+      inPatch(range.top, patch_.bottom) });
   }
 }
 
@@ -166,8 +173,10 @@ void DepthTiles::sortIntoTiles()
     const std::size_t home = m.sameBand ? homeOf(m.sphere) : tiles;
     const TileRole elsewhere = m.sameBand ? TileRole::Halo : TileRole::Other;
     visitTiles(m,
-      [&](std::size_t tile) {
-        entries_[next_[tile]++] = { m.sphere, tile == home ? TileRole::Receiver : elsewhere };
+      [&](std::size_t tile)
+      {
+        entries_[next_[tile]++] = { m.sphere, tile == home ? TileRole::Receiver : elsewhere,
+          m.hidden };
       });
   }
 }

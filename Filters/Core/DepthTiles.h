@@ -5,6 +5,7 @@
 #include "SweepScene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,10 +28,24 @@ enum class TileRole : std::uint8_t
   Other,    ///< of another band: may hide receivers
 };
 
+/// Of the two directions of an axis: the light comes from where z grows, or from the other side.
+enum DirectionBit : std::uint8_t
+{
+  Upward = 1,
+  Downward = 2
+};
+
 struct TileSphere
 {
   ProjectedSphere sphere;
   TileRole role;
+  std::uint8_t hidden; ///< bits of the directions in which nothing of it shows
+};
+
+/// A rectangle of the projection.
+struct PatchArea
+{
+  float lowX, lowY, highX, highY;
 };
 
 /// A square of the projection with all spheres that can hide its receivers.
@@ -52,13 +67,17 @@ struct ReceiverExtent
   float highY = std::numeric_limits<float>::lowest();
   std::size_t count = 0;
 
-  void add(float x, float y)
+  /// Adds some that lie within a rectangle about a place.
+  void add(float x, float y, float reachX, float reachY, std::size_t receivers)
   {
-    lowX = std::min(lowX, x);
-    lowY = std::min(lowY, y);
-    highX = std::max(highX, x);
-    highY = std::max(highY, y);
-    ++count;
+    // Rounding of a projection must not put one outside.
+    const float slackX = 1e-6f * (std::abs(x) + reachX);
+    const float slackY = 1e-6f * (std::abs(y) + reachY);
+    lowX = std::min(lowX, x - reachX - slackX);
+    lowY = std::min(lowY, y - reachY - slackY);
+    highX = std::max(highX, x + reachX + slackX);
+    highY = std::max(highY, y + reachY + slackY);
+    count += receivers;
   }
 };
 
@@ -76,12 +95,16 @@ public:
   /// Empties the tiles and goes to a patch.
   void begin(std::size_t patch);
 
+  /// Of the patch: where its receivers lie.
+  [[nodiscard]] PatchArea area() const;
+
   /// May a sphere whose centre is up to `distance` from that place, and which is no larger than
   /// `radius`, hide a receiver of the patch, or be one?
   [[nodiscard]] bool mayReach(float x, float y, float distance, float radius) const;
 
   /// Adds a sphere, in the order of the indices, if it can hide a receiver of the patch or is one.
-  void add(const ProjectedSphere& sphere, bool sameBand);
+  /// @param hidden see TileSphere
+  void add(const ProjectedSphere& sphere, bool sameBand, std::uint8_t hidden);
 
   /// Sorts what was added into the tiles of the patch.
   void sortIntoTiles();
@@ -95,6 +118,7 @@ private:
   {
     ProjectedSphere sphere;
     bool sameBand;
+    std::uint8_t hidden;
     std::uint16_t left, right, bottom, top; ///< half-open range of tiles, counted in the patch
   };
 

@@ -262,7 +262,7 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
   counters.texels += particles_.size() * texels;
   counters.particlesBuried += records_.buried();
   counters.particlesAlone += records_.alone();
-  counters.spheresClosed += swept.closed + swept.below;
+  counters.spheresClosed += swept.closed;
   counters.spheresNeverSeen += sweep_.neverSeen();
   counters.directionsBlack += static_cast<std::uint64_t>(sweep_.blackDirections());
   counters.threads = std::max(counters.threads, sweep_.threads());

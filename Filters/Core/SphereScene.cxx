@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -50,6 +52,24 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
       arguments->valid[i] = 0;
     }
   }
+}
+
+/// Embree reads four floats at once. Written one by one, just before, they would keep it waiting
+/// for a tenth of the time that a ray takes.
+RTCRay singleRay(Vec3f origin, float start, Vec3f direction, float distance)
+{
+  using FourFloats __attribute__((vector_size(16))) = float;
+  const FourFloats from{ origin.x, origin.y, origin.z, start };
+  const FourFloats towards{ direction.x, direction.y, direction.z, 0 }; // and the time
+  RTCRay ray;
+  static_assert(offsetof(RTCRay, tnear) == 12 && offsetof(RTCRay, time) == 28);
+  std::memcpy(&ray.org_x, &from, sizeof(from));
+  std::memcpy(&ray.dir_x, &towards, sizeof(towards));
+  ray.tfar = distance;
+  ray.mask = 0xFFFFFFFFu;
+  ray.id = 0;
+  ray.flags = 0;
+  return ray;
 }
 
 void addFlag(RTCScene scene, RTCSceneFlags flag)
@@ -281,21 +301,10 @@ unsigned SphereScene::traceSingly(RTCScene scene, const Rays& rays) const
   context.own = rays.own;
   context.hidden = rays.hidden;
   unsigned stopped = 0;
+  const float start = rays.own == None ? 0 : rayStart_;
   for (unsigned i = 0; i < rays.count; ++i)
   {
-    RTCRay ray;
-    ray.org_x = rays.origins[i].x;
-    ray.org_y = rays.origins[i].y;
-    ray.org_z = rays.origins[i].z;
-    ray.tnear = rays.own == None ? 0 : rayStart_;
-    ray.dir_x = rays.direction.x;
-    ray.dir_y = rays.direction.y;
-    ray.dir_z = rays.direction.z;
-    ray.time = 0;
-    ray.tfar = rays.distance;
-    ray.mask = 0xFFFFFFFFu;
-    ray.id = 0;
-    ray.flags = 0;
+    RTCRay ray = singleRay(rays.origins[i], start, rays.direction, rays.distance);
     occluded1(scene, context.embree, ray);
     stopped |= unsigned(ray.tfar < 0) << i; // Embree marks an occluded ray with -infinity
   }

@@ -10,6 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
+
+#include <hwy/base.h>
 
 namespace po
 {
@@ -30,17 +34,31 @@ constexpr int FullDirections = 32;
 constexpr double WorthwhileShare = 0.15;
 constexpr double WorthwhileWithMasks = 0.45;
 
-/// In which directions a sphere takes part.
-enum : std::uint8_t
-{
-  Never,
-  WhereAllDo,
-  Always ///< once it was seen
-};
-
 bool equalRadii(const SweepScene::Band& band)
 {
   return band.largestRadius <= band.smallestRadius * (1 + 1e-6f);
+}
+
+/// A bit for each sphere for which wanted(sphere) is true, by block.
+template <typename Wanted>
+std::vector<BlockBits> bitsOf(const SweepScene& scene, const Wanted& wanted)
+{
+  std::vector<BlockBits> bits(scene.blocks().size(), 0);
+  for (std::size_t i = 0; i < bits.size(); ++i)
+  {
+    const SweepScene::Block& block = scene.blocks()[i];
+    for (unsigned sphere = block.first; sphere < block.last; ++sphere)
+    {
+      bits[i] |= BlockBits(wanted(sphere) ? 1 : 0) << (sphere - block.first);
+    }
+  }
+  return bits;
+}
+
+std::size_t countBits(const std::vector<BlockBits>& bits)
+{
+  return std::accumulate(bits.begin(), bits.end(), std::size_t(0),
+    [](std::size_t sum, BlockBits block) { return sum + hwy::PopCount(block); });
 }
 }
 
@@ -66,10 +84,9 @@ SphereSweep::SphereSweep(const SweepScene& scene, const Background& background, 
   {
     division_.emplace(group, records);
   }
-  takesPart_.resize(alone.size());
-  std::transform(alone.begin(), alone.end(), takesPart_.begin(),
-    [](std::uint8_t isAlone) { return isAlone != 0 ? Never : WhereAllDo; });
-  all_ = static_cast<std::size_t>(std::count(alone.begin(), alone.end(), 0));
+  allBits_ = bitsOf(scene, [&alone](unsigned sphere) { return alone[sphere] == 0; });
+  seenBits_.assign(allBits_.size(), 0);
+  all_ = countBits(allBits_);
 }
 
 void SphereSweep::run(
@@ -92,7 +109,7 @@ void SphereSweep::end()
   tileSweeps_.clear();
   workspaces_.clear();
   everSeen_ = decltype(everSeen_)();
-  takesPart_ = decltype(takesPart_)();
+  allBits_ = seenBits_ = {};
 }
 
 /// A small block shows soon whether closed cells are worth their cost.
@@ -148,7 +165,8 @@ SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool al
 {
   const bool full =
     always || directions_ < FullDirections || std::isfinite(distance_) || !skips_.neverSeen;
-  AxisJob job{ axis, planeBasis(axis), patternTurns_.next(), full, true, {} };
+  AxisJob job{ axis, planeBasis(axis), patternTurns_.next(), full, true, {},
+    closedCellsPay_[full ? 1 : 0] };
   for (const bool upward : { true, false })
   {
     if (!upward && ways_ == AxisWays::Forward)
@@ -162,9 +180,9 @@ SphereSweep::AxisJob SphereSweep::makeJob(Vec3d axis, std::size_t index, bool al
       ++blackDirections_;
       continue;
     }
-    job.directions.push_back({ FacingTexels(records_.texels(), records_.patterns(), job.pattern,
-                                 job.basis, towardsLight),
-      light, nullptr, job.pattern, index, distance_, upward, full, closedCellsPay_[full ? 1 : 0] });
+    job.directions.push_back(
+      { FacingTexels(records_.texels(), records_.patterns(), job.pattern, job.basis, towardsLight),
+        light, nullptr, job.pattern, index, distance_, upward, full });
   }
   job.own = !division_ || division_->isOwn(sweptAxes_);
   sweptAxes_ += job.directions.empty() ? 0 : 1;
@@ -195,14 +213,16 @@ AxisWeights SphereSweep::weightsOf(const AxisJob& job) const
 
 void SphereSweep::finishBlock()
 {
-  seen_ = 0;
-  for (std::size_t i = 0; i < everSeen_.size(); ++i)
+  const std::vector<BlockBits> known = std::exchange(seenBits_,
+    bitsOf(scene_,
+      [this](unsigned sphere) { return everSeen_[sphere].load(std::memory_order_relaxed) != 0; }));
+  seen_ = countBits(seenBits_);
+  for (std::size_t i = 0; i < known.size(); ++i)
   {
-    if (everSeen_[i].load(std::memory_order_relaxed) != 0)
+    for (BlockBits bits = seenBits_[i] & ~known[i]; bits != 0; bits &= bits - 1)
     {
-      takesPart_[i] = Always;
-      records_.markSeen(static_cast<unsigned>(i));
-      ++seen_;
+      records_.markSeen(
+        scene_.blocks()[i].first + static_cast<unsigned>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits)));
     }
   }
   // The first block shows whether closed cells are worth their cost where all spheres take part,
@@ -219,13 +239,13 @@ void SphereSweep::judgeClosedCells(bool full)
   SweepCounters sum = counters(full);
   if (division_)
   {
-    for (std::uint64_t* number : { &sum.visits, &sum.closed, &sum.below })
+    for (std::uint64_t* number : { &sum.visits, &sum.closed })
     {
       *number = division_->sum(*number);
     }
   }
-  const auto spared = static_cast<double>(sum.closed + sum.below);
-  const auto all = static_cast<double>(sum.visits + sum.below);
+  const auto spared = static_cast<double>(sum.closed);
+  const auto all = static_cast<double>(sum.visits + sum.closed);
   bool& pay = closedCellsPay_[full ? 1 : 0];
   pay = pay && spared > (useOffsetMasks_ ? WorthwhileWithMasks : WorthwhileShare) * all;
   // Without the buried ones less is spared.
@@ -237,66 +257,24 @@ SweepCounters SphereSweep::counters(bool full) const
   SweepCounters sum = counted_[full ? 1 : 0];
   for (const TileWorkspace& work : tileSweeps_)
   {
-    sum.add(work.sweep.counters(full));
+    sum.visits += work.sweep.visits(full);
+  }
+  for (const Workspace& work : workspaces_)
+  {
+    sum.closed += work.closed[full ? 1 : 0];
   }
   return sum;
 }
 
-bool SphereSweep::takesPart(unsigned sphere, const AxisJob& job) const
+SweepParticipants SphereSweep::participants(const AxisJob& job) const
 {
-  return takesPart_[sphere] >= (job.full ? WhereAllDo : Always);
-}
-
-ReceiverExtent SphereSweep::extentOf(const SweepScene::Band& band, const AxisJob& job) const
-{
-  ReceiverExtent extent;
-  for (unsigned index = band.first; index < band.last; ++index)
+  std::uint8_t directions = 0;
+  for (const SweptDirection& direction : job.directions)
   {
-    if (takesPart(index, job))
-    {
-      const Vec3d c = scene_.center(index) - band.origin;
-      extent.add(static_cast<float>(dot(c, job.basis.x)), static_cast<float>(dot(c, job.basis.y)));
-    }
+    directions = static_cast<std::uint8_t>(directions | direction.bit());
   }
-  return extent;
-}
-
-/// Projects the spheres that matter to the tiles of the patch; floats are relative to the origin of
-/// the band.
-/// @param seen of the bands before
-void SphereSweep::gather(
-  const SweepScene::Band& band, const AxisJob& job, const SeenMarks& seen, DepthTiles& tiles) const
-{
-  const bool bounded = std::isfinite(distance_);
-  const auto project = [&](Vec3d center, float radius, unsigned index)
-  {
-    const Vec3d c = center - band.origin;
-    return ProjectedSphere{ static_cast<float>(dot(c, job.basis.x)),
-      static_cast<float>(dot(c, job.basis.y)), static_cast<float>(dot(c, job.axis)), radius,
-      index };
-  };
-  for (unsigned i = 0; i < scene_.blocks().size(); ++i)
-  {
-    const SweepScene::Block& block = scene_.blocks()[i];
-    const ProjectedSphere middle = project(block.middle, block.radius, 0);
-    if (!tiles.mayReach(middle.x, middle.y, block.distance, block.radius))
-    {
-      continue;
-    }
-    const unsigned first = i * SweepScene::BlockSize;
-    const unsigned last =
-      std::min(first + SweepScene::BlockSize, static_cast<unsigned>(scene_.size()));
-    for (unsigned index = first; index < last; ++index)
-    {
-      // One of another band that was not seen hides nothing.
-      const bool hidden = !bounded && index < band.first && seen[index] == 0;
-      if (takesPart(index, job) && !hidden)
-      {
-        tiles.add(project(scene_.center(index), scene_.sphere(index).radius, index),
-          index >= band.first && index < band.last);
-      }
-    }
-  }
+  return { job.full ? allBits_ : seenBits_, seenBits_, directions, std::isfinite(distance_),
+    job.useClosedCells };
 }
 
 void SphereSweep::buildOffsetMasks(AxisJob& job, Workspace& work) const
@@ -328,14 +306,17 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   {
     buildOffsetMasks(job, work);
   }
+  const BlockProjection projection(scene_, job.axis, job.basis);
+  TileFiller filler(scene_, projection, participants(job), work.cells);
   for (const SweepScene::Band& band : scene_.bands())
   {
-    sweepBand(band, job, work, progress);
+    sweepBand(band, job, filler, work, progress);
     if (progress.aborted())
     {
       return;
     }
   }
+  work.closed[job.full ? 1 : 0] += filler.closed();
   for (std::size_t i = 0; i < work.seen.size(); ++i)
   {
     if (work.seen[i] != 0)
@@ -346,16 +327,21 @@ void SphereSweep::sweepAxis(AxisJob& job, Progress& progress)
   progress.advance(job.directions.size() * (scene_.size() - (job.full ? all_ : seen_)));
 }
 
-void SphereSweep::sweepBand(
-  const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress)
+void SphereSweep::sweepBand(const SweepScene::Band& band, const AxisJob& job, TileFiller& filler,
+  Workspace& work, Progress& progress)
 {
-  work.tiles.layOut(extentOf(band, job), band.largestRadius);
-  for (std::size_t patch = 0; patch < work.tiles.patches() && !progress.aborted(); ++patch)
+  const ReceiverExtent extent = filler.extentOf(band);
+  work.tiles.layOut(extent, band.largestRadius);
+  const std::size_t patches = work.tiles.patches();
+  const auto workUpTo = [&](std::size_t patch)
+  { return extent.count * job.directions.size() * patch / patches; };
+  for (std::size_t patch = 0; patch < patches && !progress.aborted(); ++patch)
   {
     work.tiles.begin(patch);
-    gather(band, job, work.seen, work.tiles);
+    filler.fill(band, work.seen, work.tiles);
     work.tiles.sortIntoTiles();
     sweepTiles(band, job, work, progress);
+    progress.advance(workUpTo(patch + 1) - workUpTo(patch));
   }
 }
 
@@ -375,9 +361,6 @@ void SphereSweep::sweepTiles(
     {
       tileWork.sweep.run(tile, tileWork.order, band, direction, work.seen);
     }
-    const auto receivers = static_cast<std::uint64_t>(std::count_if(
-      tile.first, tile.last, [](const TileSphere& s) { return s.role == TileRole::Receiver; }));
-    progress.advance(receivers * job.directions.size());
   };
   // A thread that waits for tiles must not begin another axis in the same workspace.
   tbb::this_task_arena::isolate(

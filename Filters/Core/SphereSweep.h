@@ -27,6 +27,19 @@ struct SweepSkips
   bool lonely = true;      ///< spheres outside the bounded distance of any other
 };
 
+/// What a sweep could leave out.
+struct SweepCounters
+{
+  std::uint64_t visits = 0; ///< spheres that were looked at, in one direction
+  std::uint64_t closed = 0; ///< those that were not: hidden by closed cells
+
+  void add(const SweepCounters& other)
+  {
+    visits += other.visits;
+    closed += other.closed;
+  }
+};
+
 /// Which of the two directions of an axis are swept.
 enum class AxisWays
 {
@@ -87,6 +100,7 @@ private:
     bool full;                              ///< all spheres take part
     bool own;                               ///< swept here, not by another process
     std::vector<SweptDirection> directions; ///< without those that are black or not wanted
+    bool useClosedCells;
   };
 
   /// Memory of an axis that is being swept.
@@ -94,7 +108,9 @@ private:
   {
     SeenMarks seen;
     DepthTiles tiles;
+    ClosedCells cells;
     std::vector<OffsetMasks> offsetMasks = std::vector<OffsetMasks>(2);
+    std::array<std::uint64_t, 2> closed{}; ///< see TileFiller, by what takes part
   };
 
   /// Memory of a tile that is being swept.
@@ -115,14 +131,11 @@ private:
   [[nodiscard]] AxisJob makeJob(Vec3d axis, std::size_t index, bool always);
   [[nodiscard]] AxisWeights weightsOf(const AxisJob& job) const;
   void sweepAxis(AxisJob& job, Progress& progress);
-  void sweepBand(
-    const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);
+  void sweepBand(const SweepScene::Band& band, const AxisJob& job, TileFiller& filler,
+    Workspace& work, Progress& progress);
   void sweepTiles(
     const SweepScene::Band& band, const AxisJob& job, Workspace& work, Progress& progress);
-  [[nodiscard]] bool takesPart(unsigned sphere, const AxisJob& job) const;
-  [[nodiscard]] ReceiverExtent extentOf(const SweepScene::Band& band, const AxisJob& job) const;
-  void gather(const SweepScene::Band& band, const AxisJob& job, const SeenMarks& seen,
-    DepthTiles& tiles) const;
+  [[nodiscard]] SweepParticipants participants(const AxisJob& job) const;
   void buildOffsetMasks(AxisJob& job, Workspace& work) const;
   void finishBlock();
   void judgeClosedCells(bool full);
@@ -138,9 +151,10 @@ private:
   bool useOffsetMasks_;
   std::array<bool, 2> closedCellsPay_; ///< where only spheres ever seen take part, where all do
   std::vector<std::atomic<std::uint8_t>> everSeen_;
-  std::vector<std::uint8_t> takesPart_; ///< by sphere, see below
-  std::size_t all_ = 0;                 ///< spheres that take part
-  std::size_t seen_ = 0; ///< of these, those that were ever seen, up to the last block
+  std::vector<BlockBits> allBits_;  ///< by block: the spheres that take part
+  std::vector<BlockBits> seenBits_; ///< of these, those that were ever seen, up to the last block
+  std::size_t all_ = 0;             ///< their number
+  std::size_t seen_ = 0;
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   tbb::enumerable_thread_specific<TileWorkspace> tileSweeps_;
   PatternTurns patternTurns_;

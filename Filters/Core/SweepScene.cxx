@@ -19,10 +19,7 @@ SweepScene::SweepScene(const SphereSet& set)
   {
     takeInOrder(order);
   }
-  for (unsigned first = 0; first < size(); first += BlockSize)
-  {
-    addBlock(first, std::min(first + BlockSize, static_cast<unsigned>(size())));
-  }
+  std::for_each(bands_.begin(), bands_.end(), [this](Band& band) { addBlocks(band); });
 }
 
 /// False where the set has another order, or repetitions.
@@ -75,7 +72,7 @@ void SweepScene::addToBands(unsigned index, bool begins)
   if (begins)
   {
     const Brick& brick = set_.bricks()[set_.brickOf(source(index))];
-    bands_.push_back({ index, index, radius, radius, brick.origin });
+    bands_.push_back({ index, index, radius, radius, brick.origin, 0, 0 });
   }
   Band& band = bands_.back();
   band.last = index + 1;
@@ -83,7 +80,17 @@ void SweepScene::addToBands(unsigned index, bool begins)
   band.largestRadius = std::max(band.largestRadius, radius);
 }
 
-void SweepScene::addBlock(unsigned first, unsigned last)
+void SweepScene::addBlocks(Band& band)
+{
+  band.firstBlock = static_cast<unsigned>(blocks_.size());
+  for (unsigned first = band.first; first < band.last; first += BlockSize)
+  {
+    blocks_.push_back(makeBlock(first, std::min(first + BlockSize, band.last)));
+  }
+  band.lastBlock = static_cast<unsigned>(blocks_.size());
+}
+
+SweepScene::Block SweepScene::makeBlock(unsigned first, unsigned last) const
 {
   Vec3d low = center(first);
   Vec3d high = low;
@@ -95,8 +102,9 @@ void SweepScene::addBlock(unsigned first, unsigned last)
     high = { std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z) };
     radius = std::max(radius, sphere(i).radius);
   }
-  const double distance = 0.5 * length(high - low);
-  blocks_.push_back({ 0.5 * (low + high), static_cast<float>(distance * (1 + 1e-6)), radius });
+  const Vec3d half = 0.5 * (1 + 1e-6) * (high - low);
+  return { first, last, 0.5 * (low + high), half.as<float>(), static_cast<float>(length(half)),
+    radius };
 }
 
 std::vector<unsigned> SweepScene::indicesOf(std::vector<unsigned> sources) const

@@ -29,13 +29,16 @@ public:
     unsigned first, last;
     float smallestRadius, largestRadius;
     Vec3d origin; ///< of the brick: what is near to these spheres is projected relative to it
+    unsigned firstBlock, lastBlock; ///< its blocks [firstBlock, lastBlock)
   };
 
-  /// Some spheres that follow each other, so that they are mostly near each other.
+  /// Spheres [first, last) of a band, at most BlockSize: mostly near each other.
   struct Block
   {
-    Vec3d middle;
-    float distance; ///< of the farthest centre from it, rounded up
+    unsigned first, last;
+    Vec3d middle;   ///< of the box that holds their centres
+    Vec3f half;     ///< its size to each side, rounded up
+    float distance; ///< of its corners from the middle, rounded up
     float radius;   ///< the largest one
   };
   static constexpr unsigned BlockSize = 64;
@@ -55,7 +58,7 @@ public:
                                      : set_.center(source(index));
   }
   [[nodiscard]] const std::vector<Band>& bands() const { return bands_; }
-  /// Spheres [BlockSize i, BlockSize (i + 1)) are those of block i.
+  /// In the order of their spheres.
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
   /// The place of a sphere in the set that this was made from, and back.
@@ -78,7 +81,8 @@ private:
   bool takeAsTheyAre(const SweepOrder& order);
   void takeInOrder(const SweepOrder& order);
   void addToBands(unsigned index, bool begins);
-  void addBlock(unsigned first, unsigned last);
+  void addBlocks(Band& band);
+  [[nodiscard]] Block makeBlock(unsigned first, unsigned last) const;
 
   const SphereSet& set_;
   const Sphere* spheres_ = nullptr; ///< those of the set or the ordered ones

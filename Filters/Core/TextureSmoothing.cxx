@@ -15,39 +15,79 @@ namespace po::HWY_NAMESPACE
 {
 using Tap = TextureSmoothing::Tap;
 
-/// S of the texels of a row.
+/// Adds up term(tap) over the taps, in two sums, so that one need not wait for the other.
+template <typename Term>
+hn::Vec<Floats> sumOverTaps(const Tap* first, const Tap* last, const Term& term)
+{
+  const Floats d;
+  auto even = hn::Zero(d);
+  auto odd = hn::Zero(d);
+  for (; last - first > 1; first += 2)
+  {
+    even = term(first[0], even);
+    odd = term(first[1], odd);
+  }
+  return hn::Add(first == last ? even : term(*first, even), odd);
+}
+
+/// Of the texels of a row, the areas around weighted by the Gaussian.
 void sumRow(const Tap* first, const Tap* last, const float* areas, std::size_t columns, float* sums)
 {
   const Floats d;
   for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
   {
-    auto sum = hn::Zero(d);
-    for (const Tap* tap = first; tap != last; ++tap)
-    {
-      sum = hn::MulAdd(hn::Set(d, tap->kernel), hn::LoadU(d, areas + tap->offset + i), sum);
-    }
-    hn::StoreU(sum, d, sums + i);
+    const auto addArea = [&](const Tap& tap, hn::Vec<Floats> sum)
+    { return hn::MulAdd(hn::Set(d, tap.kernel), hn::LoadU(d, areas + tap.offset + i), sum); };
+    hn::StoreU(sumOverTaps(first, last, addArea), d, sums + i);
   }
 }
 
 /// @param row where it begins in the padded arrays
 void smoothRow(const Tap* first, const Tap* last, std::size_t row, const float* values,
-  const float* areas, const float* scales, std::size_t columns, float* smoothed)
+  const float* areas, const float* scales, const float* factors, std::size_t columns,
+  float* smoothed)
 {
   const Floats d;
   for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
   {
     const auto own = hn::LoadU(d, values + row + i);
     const auto scale = hn::LoadU(d, scales + row + i);
-    auto sum = own;
-    for (const Tap* tap = first; tap != last; ++tap)
+    const auto addFlow = [&](const Tap& tap, hn::Vec<Floats> sum)
     {
-      const std::size_t other = tap->offset + i;
-      const auto part = hn::Mul(hn::Set(d, tap->kernel), hn::LoadU(d, areas + other));
+      const std::size_t other = tap.offset + i;
+      const auto part = hn::Mul(hn::Set(d, tap.kernel), hn::LoadU(d, areas + other));
       const auto flow = hn::Mul(part, hn::Min(scale, hn::LoadU(d, scales + other)));
-      sum = hn::MulAdd(flow, hn::Sub(hn::LoadU(d, values + other), own), sum);
-    }
-    hn::StoreU(sum, d, smoothed + i);
+      return hn::MulAdd(flow, hn::Sub(hn::LoadU(d, values + other), own), sum);
+    };
+    const auto change = sumOverTaps(first, last, addFlow);
+    hn::StoreU(hn::MulAdd(hn::LoadU(d, factors + i), change, own), d, smoothed + i);
+  }
+}
+
+/// d becomes sqrt(d / S'), where S' is S without its own d; 0 stays.
+void scaleFactors(const float* sums, std::size_t texels, float* factors)
+{
+  const Floats d;
+  const auto zero = hn::Zero(d);
+  for (std::size_t i = 0; i < texels; i += hn::Lanes(d))
+  {
+    const auto factor = hn::LoadU(d, factors + i);
+    const auto scaled = hn::Sqrt(hn::Div(factor, hn::LoadU(d, sums + i)));
+    hn::StoreU(hn::IfThenElseZero(hn::Gt(factor, zero), scaled), d, factors + i);
+  }
+}
+
+/// 1 / S, or 0 where d is 0, from S without its own d.
+void invertSums(const float* factors, std::size_t texels, float* sums)
+{
+  const Floats d;
+  const auto zero = hn::Zero(d);
+  for (std::size_t i = 0; i < texels; i += hn::Lanes(d))
+  {
+    const auto factor = hn::LoadU(d, factors + i);
+    const auto sum = hn::Mul(factor, hn::LoadU(d, sums + i));
+    const auto inverse = hn::Div(hn::Set(d, 1.0f), sum);
+    hn::StoreU(hn::IfThenElseZero(hn::Gt(factor, zero), inverse), d, sums + i);
   }
 }
 }
@@ -65,11 +105,16 @@ namespace po
 {
 HWY_EXPORT(sumRow);
 HWY_EXPORT(smoothRow);
+HWY_EXPORT(scaleFactors);
+HWY_EXPORT(invertSums);
 
 namespace
 {
 /// Neighbours of less weight are left out.
 constexpr double SmallestKernel = 0.02;
+
+/// Steps towards equal S. Errors do not fall further with a third.
+constexpr int Scalings = 2;
 
 double widthOf(int resolution, int directions)
 {
@@ -147,23 +192,42 @@ void TextureSmoothing::pad(const float* texels, std::vector<float>& padded) cons
   }
 }
 
-void TextureSmoothing::weigh(const float* shares, Weights& weights) const
+/// S of all texels, each without its own d.
+void TextureSmoothing::sumOverKernel(
+  const std::vector<float>& outside, Weights& weights, std::vector<float>& sums) const
 {
-  std::vector<float> texels(side_ * side_ + GroupSize);
-  std::transform(areas_.begin(), areas_.end(), shares, texels.begin(), std::multiplies<>());
-  pad(texels.data(), weights.areas);
+  thread_local std::vector<float> scaled;
+  scaled.resize(outside.size());
+  std::transform(
+    outside.begin(), outside.end(), weights.factors.begin(), scaled.begin(), std::multiplies<>());
+  pad(scaled.data(), weights.areas);
+  sums.resize(outside.size() + GroupSize);
   for (std::size_t row = 0; row < side_; ++row)
   {
-    float* sums = texels.data() + row * side_;
     HWY_DYNAMIC_DISPATCH(sumRow)
     (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], weights.areas.data(), side_,
-      sums);
+      sums.data() + row * side_);
   }
-  for (std::size_t i = 0; i < side_ * side_; ++i)
+}
+
+void TextureSmoothing::weigh(const float* shares, Weights& weights) const
+{
+  thread_local std::vector<float> outside;
+  thread_local std::vector<float> sums;
+  const std::size_t texels = side_ * side_;
+  outside.resize(texels);
+  std::transform(areas_.begin(), areas_.end(), shares, outside.begin(), std::multiplies<>());
+  weights.factors.assign(texels + GroupSize, 0.0f);
+  std::transform(shares, shares + texels, weights.factors.begin(),
+    [](float share) { return share > 0 ? 1.0f : 0.0f; });
+  for (int i = 0; i < Scalings; ++i)
   {
-    texels[i] = shares[i] > 0 ? 1 / texels[i] : 0.0f;
+    sumOverKernel(outside, weights, sums);
+    HWY_DYNAMIC_DISPATCH(scaleFactors)(sums.data(), texels, weights.factors.data());
   }
-  pad(texels.data(), weights.scales);
+  sumOverKernel(outside, weights, sums);
+  HWY_DYNAMIC_DISPATCH(invertSums)(weights.factors.data(), texels, sums.data());
+  pad(sums.data(), weights.scales);
 }
 
 void TextureSmoothing::apply(float* values, const float* shares) const
@@ -188,7 +252,8 @@ void TextureSmoothing::apply(float* values, const float* shares) const
   {
     HWY_DYNAMIC_DISPATCH(smoothRow)
     (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], rowOffset(row),
-      padded.data(), weights.areas.data(), weights.scales.data(), side_, smoothed.data());
+      padded.data(), weights.areas.data(), weights.scales.data(),
+      weights.factors.data() + row * side_, side_, smoothed.data());
     std::copy_n(smoothed.begin(), side_, values + row * side_);
   }
 }

@@ -13,42 +13,39 @@ void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::
 {
   band_ = band;
   cells_.begin(tile, band);
-  if (direction.useClosedCells)
-  {
-    closed_.begin(tile, band.largestRadius);
-  }
-  SweepCounters& counters = counters_[direction.full ? 1 : 0];
-  std::uint64_t visited = 0;
   const std::size_t slabs = order.slabs();
   const auto slabAt = [&](std::size_t i)
   { return order.slab(direction.upward ? slabs - 1 - i : i); };
-  DepthOrder::Slab next = slabAt(0);
-  for (std::size_t i = 0; i < slabs; ++i)
+  const auto forEach = [&direction](const DepthOrder::Slab& slab, const auto& action)
   {
-    const DepthOrder::Slab slab = next;
-    next = slabAt(std::min(i + 1, slabs - 1));
-    std::for_each(
-      next.first, next.last, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
-    std::for_each(slab.first, slab.last,
-      [this](const TileSphere& s) { records_.prefetchRims(s.sphere.index); });
     const auto count = static_cast<std::size_t>(slab.last - slab.first);
     for (std::size_t k = 0; k < count; ++k)
     {
       const TileSphere& sphere =
         direction.upward ? slab.last[-1 - static_cast<std::ptrdiff_t>(k)] : slab.first[k];
-      if (!visit(sphere, direction, seen))
+      if ((sphere.hidden & direction.bit()) == 0)
       {
-        counters.visits += visited;
-        counters.below += tile.size() - visited;
-        return;
+        action(sphere);
       }
-      ++visited;
     }
+  };
+  DepthOrder::Slab next = slabAt(0);
+  for (std::size_t i = 0; i < slabs; ++i)
+  {
+    const DepthOrder::Slab slab = next;
+    next = slabAt(std::min(i + 1, slabs - 1));
+    forEach(next, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
+    forEach(slab, [this](const TileSphere& s) { records_.prefetchRims(s.sphere.index); });
+    forEach(slab,
+      [&](const TileSphere& s)
+      {
+        ++visits_[direction.full ? 1 : 0];
+        visit(s, direction, seen);
+      });
   }
-  counters.visits += visited;
 }
 
-bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, SeenMarks& seen)
+void TileSweep::visit(const TileSphere& s, const SweptDirection& direction, SeenMarks& seen)
 {
   const bool bounded = std::isfinite(direction.distance);
   ProjectedSphere sphere = s.sphere;
@@ -58,35 +55,15 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
     const bool hidden = sphere.index < band_.first && (seen[sphere.index] & direction.bit()) == 0;
     if (hidden && !bounded)
     {
-      return true;
-    }
-    if (direction.useClosedCells)
-    {
-      closed_.close(sphere);
+      return;
     }
   }
   else
   {
-    if (direction.useClosedCells)
-    {
-      if (closed_.hidesAllBelow(sphere.z))
-      {
-        return false;
-      }
-      if (closed_.hides(sphere))
-      {
-        ++counters_[direction.full ? 1 : 0].closed;
-        return true;
-      }
-    }
     const Sight sight = look(s, sphere, direction);
-    if (direction.useClosedCells)
-    {
-      closed_.close(sphere); // hidden or not, it closes what it covers
-    }
     if (sight == Sight::Nothing && !bounded)
     {
-      return true;
+      return;
     }
     if (sight == Sight::Surface)
     {
@@ -94,7 +71,6 @@ bool TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
     }
   }
   cells_.insert(sphere);
-  return true;
 }
 
 TileSweep::Sight TileSweep::look(

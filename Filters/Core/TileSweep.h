@@ -2,13 +2,13 @@
 #ifndef po_TileSweep_h
 #define po_TileSweep_h
 
-#include "ClosedCells.h"
 #include "DepthOrder.h"
 #include "DepthTiles.h"
 #include "OccluderCells.h"
 #include "OffsetMasks.h"
 #include "SweepDivision.h"
 #include "TexelMask.h"
+#include "TileFiller.h"
 #include "VisibilityRecords.h"
 
 #include <algorithm>
@@ -29,28 +29,9 @@ struct SweptDirection
   float distance;                 ///< light is blocked within it: local, infinite when unbounded
   bool upward;                    ///< the light comes from where z grows
   bool full;                      ///< all spheres take part, not only those ever seen
-  bool useClosedCells;
 
   /// Of this direction in marks by sphere.
-  [[nodiscard]] std::uint8_t bit() const { return upward ? 1 : 2; }
-};
-
-/// Marks of what each direction of a pair has seen, by sphere: the sum of their bits.
-using SeenMarks = std::vector<std::uint8_t>;
-
-/// What a sweep could leave out.
-struct SweepCounters
-{
-  std::uint64_t visits = 0; ///< spheres that were looked at, in one direction
-  std::uint64_t closed = 0; ///< of these, those hidden by closed cells
-  std::uint64_t below = 0;  ///< never looked at: below a tile in which all cells are closed
-
-  void add(const SweepCounters& other)
-  {
-    visits += other.visits;
-    closed += other.closed;
-    below += other.below;
-  }
+  [[nodiscard]] std::uint8_t bit() const { return upward ? Upward : Downward; }
 };
 
 /// Finds what of a tile's receivers is seen along a direction, from the light downward.
@@ -77,8 +58,9 @@ public:
   void run(const DepthTile& tile, DepthOrder& order, const SweepScene::Band& band,
     const SweptDirection& direction, SeenMarks& seen);
 
-  /// @param full of directions in which all spheres took part, or of the others
-  [[nodiscard]] const SweepCounters& counters(bool full) const { return counters_[full ? 1 : 0]; }
+  /// Spheres that were looked at.
+  /// @param full in directions in which all spheres took part, or in the others
+  [[nodiscard]] std::uint64_t visits(bool full) const { return visits_[full ? 1 : 0]; }
 
 private:
   /// What a direction sees of a sphere.
@@ -89,8 +71,7 @@ private:
     Surface   ///< of a receiver
   };
 
-  /// False when nothing below can be seen.
-  bool visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
+  void visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
   [[nodiscard]] Sight look(
     const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction);
   void keep(unsigned sphere, const SweptDirection& direction);
@@ -100,10 +81,9 @@ private:
   VisibilityRecords& records_;
   SweepDivision* division_;
   OccluderCells cells_;
-  ClosedCells closed_;
   SweepScene::Band band_{};
   std::vector<GroupMask> mask_; ///< of the sphere at hand
-  std::array<SweepCounters, 2> counters_;
+  std::array<std::uint64_t, 2> visits_{};
 };
 }
 

@@ -7,9 +7,10 @@
 ///
 /// Scenes, families and .vtp files among them, are told in BenchmarkScenes.h. Errors are taken
 /// over a few particles against Reference with many more rays and another seed: area-weighted RMS
-/// of linear visibility over the outside part of the texels. The Reference's time is measured on
-/// the same particles and scaled to all, as is that of Embree, on up to 2,000 particles. Seconds
-/// are those of the process: all threads together.
+/// of linear visibility over the outside part of the texels. The Reference's time, and that of the
+/// thesis' way, which traces samples inside others too (ThesisEstimator.h), are measured on the
+/// same particles and scaled to all, as is that of Embree, on up to 2,000 particles. Seconds are
+/// those of the process: all threads together.
 
 #include "BenchmarkScenes.h"
 #include "EmbreeEstimator.h"
@@ -18,6 +19,7 @@
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
 #include "TexelMap.h"
+#include "ThesisEstimator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,14 +183,17 @@ void benchmark(const std::string& name, const Options& options)
   settings.seed = 1;
   const Textures baseline = estimate(reference, scene, judged, positions, settings);
   const Error target = errorOf(baseline, judge, settings.textureResolution);
-  const double baselineSeconds =
-    baseline.seconds * static_cast<double>(particles) / static_cast<double>(judged.size());
+  const double toAll = static_cast<double>(particles) / static_cast<double>(judged.size());
+  const double baselineSeconds = baseline.seconds * toAll;
+  const double thesisSeconds =
+    estimate(po::ThesisEstimator(), scene, judged, positions, settings).seconds * toAll;
   std::printf("| %s (%zu) | Reference %d | %.1f | %.4f | %+.4f | | 1 |\n", name.c_str(), particles,
     options.samples, baselineSeconds, target.rms, target.bias);
+  std::printf("| %s | Thesis %d | %.1f | | | | |\n", name.c_str(), options.samples, thesisSeconds);
 
   double lastError = 0;
   double lastSeconds = 0;
-  for (const int directions : { 64, 128, 192, 256, 384, 512, 768, 1024 })
+  for (const int directions : { 32, 48, 64, 96, 128, 192, 256, 384, 512, 768, 1024 })
   {
     const Run run = options.embree ? runEmbree(directions, scene, judged, settings)
                                    : runSweep(directions, scene, all, judged, settings);
@@ -202,8 +207,8 @@ void benchmark(const std::string& name, const Options& options)
       const double seconds = lastError > 0
         ? secondsAt(target.rms, lastError, lastSeconds, error.rms, found.seconds)
         : found.seconds;
-      std::printf("| %s | equal error | %.2f | %.4f | | | **%.1f** |\n", name.c_str(), seconds,
-        target.rms, baselineSeconds / seconds);
+      std::printf("| %s | equal error | %.2f | %.4f | | | **%.1f**, to Thesis %.1f |\n",
+        name.c_str(), seconds, target.rms, baselineSeconds / seconds, thesisSeconds / seconds);
       return;
     }
     lastError = error.rms;

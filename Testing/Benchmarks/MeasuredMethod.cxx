@@ -4,6 +4,7 @@
 #include "EmbreeEstimator.h"
 #include "ReferenceEstimator.h"
 #include "SweepEstimator.h"
+#include "ThesisEstimator.h"
 
 #include <map>
 #include <stdexcept>
@@ -53,6 +54,10 @@ MeasuredMethod makeMethod(const std::string& name, int level, const std::string&
   if (name == "Reference")
   {
     return { std::make_unique<ReferenceEstimator>(), level, false };
+  }
+  if (name == "Thesis")
+  {
+    return { std::make_unique<ThesisEstimator>(), level, false };
   }
   if (name == "Embree")
   {

@@ -18,7 +18,7 @@ struct MeasuredMethod
 };
 
 /// The one place to add another estimator (and its levels to METHODS in run_error_benchmark.py).
-/// @param level samples a texel of Reference, directions of the others
+/// @param level samples a texel of Reference and Thesis, directions of the others
 /// @param without one of the SweepSkips, which is switched off; none if empty
 /// Throws std::runtime_error if there is no such method or skip.
 [[nodiscard]] MeasuredMethod makeMethod(

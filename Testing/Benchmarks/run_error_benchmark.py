@@ -27,9 +27,10 @@ SHIPPED_REFERENCES = HERE / "References"
 # makeMethod() of MeasuredMethod.cxx.
 METHODS = {
     "Reference": [4, 9, 16, 25, 49, 100, 196],    # samples a texel
+    "Thesis": [49],                               # samples a texel, all of them traced
     "Sweep": [16, 32, 64, 128, 256, 512, 1024],   # directions
     "Embree": [32, 64, 128, 256, 512]}            # directions
-TINY_LEVELS = {"Reference": [4, 49], "Sweep": [16, 256], "Embree": [32, 256]}
+TINY_LEVELS = {"Reference": [4, 49], "Thesis": [49], "Sweep": [16, 256], "Embree": [32, 256]}
 USUAL_LEVELS = {"Reference": 49, "Sweep": 112, "Embree": 112}  # what the filter takes by default
 SWEEP = {"Sweep": 112}
 # Particles whose time is taken, where it is not the program's own number. Embree prepares its

@@ -58,7 +58,7 @@ class TinyForm(unittest.TestCase):
 
     def test_rows_have_finite_positive_numbers(self):
         rows = self.rows("error")
-        self.assertEqual(len(rows), 6)
+        self.assertEqual(len(rows), 7)
         for row in rows:
             self.assert_positive(row, POSITIVE + OF_ERROR)
             self.assertTrue(math.isfinite(row["bias"]))
@@ -72,6 +72,13 @@ class TinyForm(unittest.TestCase):
                 coarse, fine = sorted(report.pick(rows, method=method), key=lambda r: r["level"])
                 self.assertLess(fine["rmse"], coarse["rmse"])
                 self.assertLess(fine["p99"], coarse["p99"])
+
+    def test_thesis_way_traces_all_rays(self):
+        rows = self.rows("error")
+        reference, = report.pick(rows, method="Reference", level=49)
+        thesis, = report.pick(rows, method="Thesis")
+        # The gas hardly overlaps: both estimate the same.
+        self.assertLess(abs(thesis["rmse"] - reference["rmse"]), 0.3 * reference["rmse"])
 
     def test_sets_of_instructions_agree(self):
         for row in self.rows("simd"):
@@ -104,13 +111,13 @@ class TinyForm(unittest.TestCase):
     def test_rate_of_rays(self):
         rows = self.rows("rays")
         self.assertEqual([row["scene"] for row in rows], ["gas"])
-        self.assert_positive(rows[0], ["rays", "bake_ms", "generate_ms", "bare_ms", "share",
-                                       "ray_rate"])
+        self.assert_positive(rows[0], ["rays", "bake_ms", "generate_ms", "bare_ms",
+                                       "filtered_ms", "share", "ray_rate", "filtered_rate"])
 
     def test_equal_error_tells_directions(self):
         self.rows("error")
         text = (self.folder / "error.md").read_text(encoding="utf-8")
-        self.assertIn("| directions | s | ratio |", text)
+        self.assertIn("| directions | s | ratio | ratio to all rays |", text)
         for method in ["Sweep", "Embree"]:
             self.assertIn(f"| gas | {method} |", text.split("## At the RMSE")[1])
 

@@ -2,7 +2,6 @@
 /// The parts that a sweep is made of, each by itself.
 
 #include "BackgroundIrradiance.h"
-#include "ClosedCells.h"
 #include "Constants.h"
 #include "EstimateDifference.h"
 #include "OffsetLookup.h"
@@ -231,44 +230,6 @@ TEST(TexelMask, HidesByManyWhatEachOfThemHides)
   po::hideTexels(facing, many, together.data());
   EXPECT_EQ(together, oneByOne);
   EXPECT_NE(together, facing.facing);
-}
-
-TEST(ClosedCells, SpheresMayReachBeyondAllIntegers)
-{
-  po::ClosedCells cells;
-  const po::DepthTile tile{ 0, 0, 1, nullptr, nullptr };
-  cells.begin(tile, 1);
-  // In cells of half a reach its radius is far beyond 2^31: it closes all of them.
-  cells.close({ 0, 0, 5, 1e12f, 0 });
-  EXPECT_TRUE(cells.hidesAllBelow(3));
-  EXPECT_TRUE(cells.hides({ 0.5f, 0.5f, 3, 1, 1 }));
-  EXPECT_FALSE(cells.hides({ 0.5f, 0.5f, 4.5f, 1, 1 }));
-  // One that sticks out of the cells is not hidden, however far it reaches.
-  EXPECT_FALSE(cells.hides({ 1e12f, 0.5f, 3, 1e12f, 1 }));
-  EXPECT_FALSE(cells.hides({ 0.5f, 1e12f, 3, 1e12f, 1 }));
-}
-
-TEST(ClosedCells, WhatSticksOutIsNotHidden)
-{
-  // Four occluders close all cells, the last one at height 2; receivers have radii up to 1.
-  po::ClosedCells cells;
-  const po::DepthTile tile{ 0, 0, 8, nullptr, nullptr };
-  cells.begin(tile, 1);
-  unsigned index = 0;
-  for (const float x : { -4.0f, 12.0f })
-  {
-    for (const float y : { -4.0f, 12.0f })
-    {
-      EXPECT_FALSE(cells.hidesAllBelow(-100));
-      cells.close({ x, y, 5 - static_cast<float>(index), 12, index });
-      ++index;
-    }
-  }
-  EXPECT_FALSE(cells.hidesAllBelow(1.01f));
-  EXPECT_TRUE(cells.hidesAllBelow(0.99f));
-  EXPECT_FALSE(cells.hides({ 4, 4, 4.5f, 1, 9 }));
-  EXPECT_FALSE(cells.hides({ 9.5f, 9.5f, 1.01f, 1, 9 }));
-  EXPECT_TRUE(cells.hides({ 9.5f, 9.5f, 0.99f, 1, 9 }));
 }
 
 TEST(TexelExposure, TellsThePointsOutsideAllCaps)

@@ -157,6 +157,19 @@ TEST(TextureSmoothing, ReachesAcrossThePole)
   EXPECT_EQ(smoothed[7 * 16], 0);
 }
 
+TEST(TextureSmoothing, TrustsTexelsLittleOfWhichLittleIsOutside)
+{
+  // Few points make such a value. Its neighbours, all of them outside, take over.
+  const std::size_t place = 8 * 16 + 5;
+  std::vector<float> shares = wholeShares(16);
+  shares[place] = 0.05f;
+  std::vector<float> values(256, 0.5f);
+  values[place] = 1;
+  EXPECT_NEAR(smooth(16, 112, values, shares)[place], 0.5f, 0.15f);
+  shares[place] = 1;
+  EXPECT_GT(smooth(16, 112, values, shares)[place], 0.65f);
+}
+
 TEST(TextureSmoothing, LeavesMeansOverFinerTexels)
 {
   const std::vector<float> values = randomTexels(11, 4);
