@@ -44,7 +44,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Cells = hn::CappedTag<float, 8>;
 using Columns = hn::RebindToSigned<Cells>;
-constexpr int MostLanes = 8;
+constexpr int MostRows = 8;
 
 /// In cells.
 struct CellDisc
@@ -55,8 +55,8 @@ struct CellDisc
 /// Columns [left, right) of some rows.
 struct RowSpans
 {
-  HWY_ALIGN std::int32_t left[MostLanes];
-  HWY_ALIGN std::int32_t right[MostLanes];
+  HWY_ALIGN std::int32_t left[MostRows];
+  HWY_ALIGN std::int32_t right[MostRows];
 };
 
 /// The cells that a disc covers wholly, of as many rows as a vector has lanes.
@@ -122,7 +122,42 @@ inline void closeDisc(const CellDisc& disc, const CellGrid& grid, float* up, flo
   }
 }
 
-void closeAll(const ProjectedBlock& spheres, const CellGrid& grid, float* up, float* down)
+/// The same for a disc of the size of the stamps. Those that may reach beyond the grid close
+/// nothing: all receivers are farther inside.
+inline void stampDisc(
+  const CellDisc& disc, const DiscStamps& stamps, const CellGrid& grid, float* up, float* down)
+{
+  constexpr int half = DiscStamps::Side / 2;
+  const auto isWithin = [](float place, int cells)
+  { return place >= half && place < static_cast<float>(cells - half); };
+  if (!isWithin(disc.x, grid.columns) || !isWithin(disc.y, grid.rows))
+  {
+    return;
+  }
+  const Cells d;
+  const auto column = static_cast<int>(disc.x);
+  const auto row = static_cast<int>(disc.y);
+  const auto phase = [](float place, int cell)
+  { return static_cast<int>((place - static_cast<float>(cell)) * DiscStamps::Phases); };
+  const float* stamp = stamps.at(phase(disc.x, column), phase(disc.y, row));
+  const std::ptrdiff_t corner = (row - half) * grid.columns + column - half;
+  const auto z = hn::Set(d, disc.z);
+  const auto raise = [d](float* cells, hn::Vec<Cells> heights)
+  { hn::StoreU(hn::Max(hn::LoadU(d, cells), heights), d, cells); };
+  for (int i = 0; i < DiscStamps::Side; ++i)
+  {
+    for (std::size_t lane = 0; lane < DiscStamps::Stride; lane += hn::Lanes(d))
+    {
+      const auto covered = hn::LoadU(d, stamp + i * DiscStamps::Stride + lane);
+      const auto cell = corner + i * grid.columns + static_cast<std::ptrdiff_t>(lane);
+      raise(up + cell, hn::Add(covered, z));
+      raise(down + cell, hn::Sub(covered, z));
+    }
+  }
+}
+
+void closeAll(const ProjectedBlock& spheres, const CellGrid& grid, const DiscStamps& stamps,
+  float* up, float* down)
 {
   for (std::size_t i = 0; i < spheres.count; ++i)
   {
@@ -130,7 +165,14 @@ void closeAll(const ProjectedBlock& spheres, const CellGrid& grid, float* up, fl
     const CellDisc disc{ (spheres.x[i] - grid.lowX) * grid.perCell,
       (spheres.y[i] - grid.lowY) * grid.perCell, spheres.radius[i] * grid.perCell * (1 - 1e-5f),
       spheres.z[i] };
-    closeDisc(disc, grid, up, down);
+    if (stamps.fit(disc.radius))
+    {
+      stampDisc(disc, stamps, grid, up, down);
+    }
+    else
+    {
+      closeDisc(disc, grid, up, down);
+    }
   }
 }
 
@@ -221,11 +263,47 @@ HWY_EXPORT(findBelow);
 namespace
 {
 constexpr float MostCells = 512;       ///< along a side
-constexpr float Margin = 3.5f;         ///< in reaches: halo spheres, two away, reach one farther
+constexpr float Margin = 4;            ///< in reaches: halo spheres, two away, reach one farther
 constexpr std::size_t BeyondLast = 32; ///< what vectors reach
+
+/// Does a disc about (x, y) hold a square cell?
+bool holds(float x, float y, float radius, int column, int row)
+{
+  const auto farther = [](float place, int cell)
+  {
+    const auto low = static_cast<float>(cell);
+    return std::max(std::abs(place - low), std::abs(place - low - 1));
+  };
+  const float dx = farther(x, column);
+  const float dy = farther(y, row);
+  return dx * dx + dy * dy <= radius * radius;
+}
 }
 
-void ClosedCells::begin(const PatchArea& area, float reach)
+void DiscStamps::build(float radius)
+{
+  if (radius == radius_)
+  {
+    return;
+  }
+  radius_ = radius;
+  // The centre may be off the middle of its phase.
+  const float least = radius - std::sqrt(0.5f) / Phases;
+  const auto middle = [](int phase)
+  { return static_cast<float>(Side / 2) + (static_cast<float>(phase) + 0.5f) / Phases; };
+  float* cell = cells_.data();
+  for (int phase = 0; phase < Phases * Phases; ++phase)
+  {
+    for (int i = 0; i < Side * Stride; ++i, ++cell)
+    {
+      const float x = middle(phase % Phases);
+      const float y = middle(phase / Phases);
+      *cell = holds(x, y, least, i % Stride, i / Stride) ? 0 : Open;
+    }
+  }
+}
+
+void ClosedCells::begin(const PatchArea& area, float smallest, float reach)
 {
   const float width = area.highX - area.lowX + 2 * Margin * reach;
   const float height = area.highY - area.lowY + 2 * Margin * reach;
@@ -237,6 +315,7 @@ void ClosedCells::begin(const PatchArea& area, float reach)
   { return std::max(static_cast<int>(std::ceil(length / cell)), 2 * Reach + 1); };
   grid_ = { area.lowX - Margin * reach, area.lowY - Margin * reach, cell, 1 / cell, along(width),
     along(height) };
+  stamps_.build(smallest * grid_.perCell * (1 - 1e-5f));
   const std::size_t cells =
     static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(grid_.rows) + BeyondLast;
   for (CellHeights* heights : { &up_, &down_ })
@@ -249,7 +328,7 @@ void ClosedCells::begin(const PatchArea& area, float reach)
 
 void ClosedCells::close(const ProjectedBlock& spheres)
 {
-  HWY_DYNAMIC_DISPATCH(closeAll)(spheres, grid_, up_.closed.data(), down_.closed.data());
+  HWY_DYNAMIC_DISPATCH(closeAll)(spheres, grid_, stamps_, up_.closed.data(), down_.closed.data());
 }
 
 /// Finds for every cell how high the highest point of a receiver may be, whose centre lies there,

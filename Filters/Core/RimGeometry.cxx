@@ -1,50 +1,47 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RimGeometry.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace po
 {
 namespace
 {
-/// |a + x b + y c|^2 times a factor.
-Quadratic squareOf(const WindowFunction<Vec3d>& f, double factor)
+/// |a + x b + y c|^2
+Quadratic squareOf(const Vec3d& a, const Vec3d& b, const Vec3d& c)
 {
-  const auto product = [factor](double scale, const Vec3d& a, const Vec3d& b)
-  { return static_cast<float>(factor * scale * dot(a, b)); };
-  return { product(1, f.base, f.base), product(2, f.base, f.dx), product(2, f.base, f.dy),
-    product(1, f.dx, f.dx), product(2, f.dx, f.dy), product(1, f.dy, f.dy) };
+  const auto product = [](double factor, const Vec3d& u, const Vec3d& v)
+  { return static_cast<float>(factor * dot(u, v)); };
+  return { product(1, a, a), product(2, a, b), product(2, a, c), product(1, b, b), product(2, b, c),
+    product(1, c, c) };
+}
+
+std::array<float, 6> productsOf(const Vec3d& a, const Vec3d& b, const Vec3d& c)
+{
+  const auto product = [](const Vec3d& u, const Vec3d& v) { return static_cast<float>(dot(u, v)); };
+  return { product(a, a), product(a, b), product(b, b), product(a, c), product(b, c),
+    product(c, c) };
 }
 }
 
 RayPatch makeRayPatch(const RayPencil& rays)
 {
   const double scale = 1 / length(rays.localDirection.base);
-  return { rays, scale, squareOf(rays.localDirection, scale * scale) };
-}
-
-Quadratic squaredMoment(const RayPatch& patch, const Sphere& sphere)
-{
-  const WindowFunction<Vec3d>& d = patch.rays.localDirection;
-  const WindowFunction<Vec3d>& origin = patch.rays.localOrigin;
-  const Vec3d toCenter = sphere.center().as<double>() - origin.base;
-  const WindowFunction<Vec3d> moment{ cross(toCenter, d.base),
-    cross(toCenter, d.dx) - cross(origin.dx, d.base),
-    cross(toCenter, d.dy) - cross(origin.dy, d.base) };
-  const double scale = patch.scale / sphere.radius;
-  return squareOf(moment, scale * scale);
-}
-
-double rimDepth(const RayPatch& patch, const Sphere& sphere)
-{
-  const RayPencil& rays = patch.rays;
-  const Vec3d toCenter = sphere.center().as<double>() - rays.localOrigin.base;
-  const Vec3d& growth = rays.localOrigin.dx;
-  const double radius = sphere.radius;
-  const double local = dot(growth, growth) > 0
-    ? patch.scale * dot(toCenter, rays.localDirection.base)
-    : std::sqrt(std::max(0.0, dot(toCenter, toCenter) - radius * radius));
-  return local * patch.scale * length(rays.worldDirection.base);
+  const Vec3d d = scale * rays.localDirection.base;
+  const bool perspective = !(dot(rays.localOrigin.dx, rays.localOrigin.dx) > 0);
+  const Vec3d dx = perspective ? scale * rays.localDirection.dx : rays.localOrigin.dx;
+  const Vec3d dy = perspective ? scale * rays.localDirection.dy : rays.localOrigin.dy;
+  const Vec3d none{ 0, 0, 0 }, across = cross(dx, dy);
+  const double perVolume = 1 / dot(d, across);
+  RayPatch patch;
+  patch.perspective = perspective;
+  patch.origin = rays.localOrigin.base;
+  patch.depth = perVolume * across;
+  patch.column = perVolume * cross(dy, d);
+  patch.row = perVolume * cross(d, dx);
+  patch.products = productsOf(cross(d, dx), cross(d, dy), perspective ? across : none);
+  patch.squaredLength = squareOf(d, perspective ? dx : none, perspective ? dy : none);
+  patch.worldPerLocal = scale * length(rays.worldDirection.base);
+  return patch;
 }
 }

@@ -3,7 +3,8 @@
 #define po_RimGeometry_h
 
 #include "Camera.h"
-#include "Sphere.h"
+
+#include <array>
 
 /// Where the rims of spheres lie in a small part of a picture.
 namespace po
@@ -14,23 +15,25 @@ struct Quadratic
   float c, x, y, xx, xy, yy;
 };
 
-/// The rays of a tile, as functions of the offset in pixels from the middle of the tile.
+/// The rays around one place of a picture: at the offset (X, Y) in pixels from it they have the
+/// direction d = d0 + X dx + Y dy and, in parallel projection, origins that move with it.
+///
+/// A ray has the distance h = |m| / |d| from the centre c of a sphere, with m = (c - origin) x d.
+/// In perspective, with c - origin = w d0 + u dx + v dy,
+///   m = (w X - u) d0 x dx + (w Y - v) d0 x dy + (u Y - v X) dx x dy:
+/// d is d0 + X dx + Y dy too, so that only these three numbers are needed of a sphere. In parallel
+/// projection dx and dy are what the origin moves by, w is 1, and the last term is none.
 struct RayPatch
 {
-  RayPencil rays;
-  double scale;            ///< 1 / length of the direction in the middle
-  Quadratic squaredLength; ///< of a direction, 1 in the middle
+  bool perspective;
+  Vec3d origin;                  ///< of the ray in the middle
+  Vec3d depth, column, row;      ///< dot products with c - origin: w, u, v (w too if parallel)
+  std::array<float, 6> products; ///< of the three vectors above: 11, 12, 22, 13, 23, 33
+  Quadratic squaredLength;       ///< of a direction, 1 in the middle
+  double worldPerLocal;          ///< of lengths along rays
 };
 
 [[nodiscard]] RayPatch makeRayPatch(const RayPencil& rays);
-
-/// |m|^2 over the squared radius of a sphere. The ray at (x, y) from the middle of a patch has the
-/// distance h = |m| / |d| from the sphere's centre, with m = (centre - origin) x d linear in (x,
-/// y): in perspective all rays have one origin, in parallel projection one direction.
-[[nodiscard]] Quadratic squaredMoment(const RayPatch& patch, const Sphere& sphere);
-
-/// Depth at which rays touch a sphere, in world units: the same along all of its rim.
-[[nodiscard]] double rimDepth(const RayPatch& patch, const Sphere& sphere);
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vectors over pixels beside the rim of a sphere, for sources that Highway compiles once for each
+// Vectors over edges and the rims in front of them, for sources that Highway compiles once for each
 // instruction set: included by each of them anew, hence no plain include guard.
 #if defined(po_RimLanes_inl_h) == defined(HWY_TARGET_TOGGLE)
 #ifdef po_RimLanes_inl_h
@@ -8,7 +8,7 @@
 #define po_RimLanes_inl_h
 #endif
 
-#include "RimGeometry.h"
+#include "RimEdges.h"
 #include "SilhouetteRule.h"
 
 #include <hwy/highway.h>
@@ -20,8 +20,7 @@ namespace po::HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The pixels of one rim in a tile are few: longer vectors would be mostly empty.
-using Tag = hn::CappedTag<float, 16>;
+using Tag = hn::CappedTag<float, EdgeGroup::Size>;
 using IntegerTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Integers = hn::Vec<IntegerTag>;
@@ -37,80 +36,133 @@ inline Integers number(std::int32_t value)
   return hn::Set(IntegerTag(), value);
 }
 
-/// Iota from a constant: its lanes from a variable would be written one by one.
-inline Integers countFrom(std::int32_t first)
+inline Floats load(const std::vector<float>& from, std::size_t at)
 {
-  return hn::Add(hn::Iota(IntegerTag(), 0), number(first));
+  return hn::LoadU(Tag(), from.data() + at);
 }
 
-inline Integers gather(const std::uint32_t* from, Integers at)
+inline Integers load(const std::vector<std::int32_t>& from, std::size_t at)
 {
-  return hn::GatherIndex(IntegerTag(), reinterpret_cast<const std::int32_t*>(from), at);
+  return hn::LoadU(IntegerTag(), from.data() + at);
 }
 
-/// A quadratic at some places, and half its gradient.
+/// A quadratic at some places with half its derivatives.
 struct Evaluated
 {
-  Floats value, halfX, halfY;
+  Floats value, x, y, xx, xy, yy;
+};
 
-  Evaluated(const Quadratic& f, Floats x, Floats y)
+inline Evaluated evaluate(const Quadratic& f, Floats x, Floats y)
+{
+  const Floats xx = number(f.xx), xy = number(0.5F * f.xy), yy = number(f.yy);
+  const Floats fx = number(0.5F * f.x), fy = number(0.5F * f.y);
+  const Floats halfX = hn::Add(fx, hn::Add(hn::Mul(x, xx), hn::Mul(y, xy)));
+  const Floats halfY = hn::Add(fy, hn::Add(hn::Mul(y, yy), hn::Mul(x, xy)));
+  const Floats rise = hn::Add(hn::Mul(x, hn::Add(fx, halfX)), hn::Mul(y, hn::Add(fy, halfY)));
+  return { hn::Add(number(f.c), rise), halfX, halfY, xx, xy, yy };
+}
+
+/// |m|^2 over the squared radius of spheres, see RayPatch.
+inline Evaluated squaredMoments(
+  const RayPatch& patch, const RimEdges& edges, std::size_t at, Floats x, Floats y)
+{
+  const Floats w = load(edges.w, at), u = load(edges.u, at), v = load(edges.v, at);
+  const auto p = [&patch](std::size_t k) { return number(patch.products[k]); };
+  const auto sum3 = [](Floats a, Floats b, Floats c) { return hn::Add(hn::Add(a, b), c); };
+  // Products of the vectors with dm/dX = (w, 0, -v) and dm/dY = (0, w, u).
+  const Floats x1 = hn::Sub(hn::Mul(w, p(0)), hn::Mul(v, p(3)));
+  const Floats x2 = hn::Sub(hn::Mul(w, p(1)), hn::Mul(v, p(4)));
+  const Floats x3 = hn::Sub(hn::Mul(w, p(3)), hn::Mul(v, p(5)));
+  const Floats y2 = hn::Add(hn::Mul(w, p(2)), hn::Mul(u, p(4)));
+  const Floats y3 = hn::Add(hn::Mul(w, p(4)), hn::Mul(u, p(5)));
+  const Floats m1 = hn::Sub(hn::Mul(w, x), u), m2 = hn::Sub(hn::Mul(w, y), v),
+               m3 = hn::Sub(hn::Mul(u, y), hn::Mul(v, x));
+  const Floats n1 = sum3(hn::Mul(m1, p(0)), hn::Mul(m2, p(1)), hn::Mul(m3, p(3)));
+  const Floats n2 = sum3(hn::Mul(m1, p(1)), hn::Mul(m2, p(2)), hn::Mul(m3, p(4)));
+  const Floats n3 = sum3(hn::Mul(m1, p(3)), hn::Mul(m2, p(4)), hn::Mul(m3, p(5)));
+  return { sum3(hn::Mul(m1, n1), hn::Mul(m2, n2), hn::Mul(m3, n3)),
+    hn::Sub(hn::Mul(w, n1), hn::Mul(v, n3)), hn::Add(hn::Mul(w, n2), hn::Mul(u, n3)),
+    hn::Sub(hn::Mul(w, x1), hn::Mul(v, x3)), hn::Add(hn::Mul(w, x2), hn::Mul(u, x3)),
+    hn::Add(hn::Mul(w, y2), hn::Mul(u, y3)) };
+}
+
+/// Rims beside edges, as the circles that touch them there; in pixels, from the centre of the
+/// edge's pixel.
+struct RimCircles
+{
+  Floats distance; ///< of the edge beyond the rim
+  Floats nx, ny;   ///< unit normal, away from the sphere
+  Floats x, y;     ///< centre
+  Floats radius;
+
+  /// How far beyond the rim another pixel is.
+  [[nodiscard]] Floats distanceAt(int column, int row) const
   {
-    const Floats mixed = number(0.5F * f.xy), fx = number(0.5F * f.x), fy = number(0.5F * f.y);
-    const Floats bentX = hn::Add(hn::Mul(x, number(f.xx)), hn::Mul(y, mixed));
-    const Floats bentY = hn::Add(hn::Mul(y, number(f.yy)), hn::Mul(x, mixed));
-    halfX = hn::Add(fx, bentX);
-    halfY = hn::Add(fy, bentY);
-    const Floats rise = hn::Add(hn::Mul(x, hn::Add(fx, halfX)), hn::Mul(y, hn::Add(fy, halfY)));
-    value = hn::Add(number(f.c), rise);
+    const Floats dx = hn::Sub(number(static_cast<float>(column)), x);
+    const Floats dy = hn::Sub(number(static_cast<float>(row)), y);
+    return hn::Sub(hn::Sqrt(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy))), radius);
   }
 };
 
-/// Where pixels lie beside a rim.
-struct Place
-{
-  Floats distance;     ///< beyond the rim, in pixels
-  Floats nx, ny;       ///< unit normal, away from the sphere
-  Floats wide, narrow; ///< its larger and smaller component, without sign
-  Floats perWide, perArea;
-};
-
 /// The distance from the rim is (h - r) / |grad h|, with lengths in radii.
-inline Place placeOf(const Quadratic& squaredMoment, const RayPatch& patch, Floats x, Floats y)
+inline RimCircles circlesOf(const RayPatch& patch, const RimEdges& edges, std::size_t at)
 {
-  const Floats tiny = number(1e-30F), one = number(1.0F);
-  const Evaluated moment(squaredMoment, x, y), length(patch.squaredLength, x, y);
+  const Floats tiny = number(1e-30F), one = number(1.0F), straightest = number(1e-4F);
+  const Floats x = load(edges.x, at), y = load(edges.y, at);
+  const Evaluated moment = squaredMoments(patch, edges, at, x, y);
+  const Evaluated length = evaluate(patch.squaredLength, x, y);
   const Floats value = hn::Max(moment.value, tiny);
   const Floats square = hn::Div(value, length.value);
+  const auto lessLength = [square](Floats a, Floats b) { return hn::Sub(a, hn::Mul(square, b)); };
   // grad h times h |d|^2
-  const Floats gx = hn::Sub(moment.halfX, hn::Mul(square, length.halfX));
-  const Floats gy = hn::Sub(moment.halfY, hn::Mul(square, length.halfY));
+  const Floats gx = lessLength(moment.x, length.x), gy = lessLength(moment.y, length.y);
   const Floats gradient = hn::Add(hn::Mul(gx, gx), hn::Mul(gy, gy));
   const Floats perLength = hn::Div(one, hn::Sqrt(hn::Max(gradient, tiny)));
   // (h - 1) h |d|^2
   const Floats beyond = hn::Sub(value, hn::Sqrt(hn::Mul(value, length.value)));
+  const Floats distance = hn::Mul(beyond, perLength);
   const Floats nx = hn::Mul(gx, perLength), ny = hn::Mul(gy, perLength);
-  const Floats wide = hn::Max(hn::Abs(nx), hn::Abs(ny));
-  const Floats narrow = hn::Min(hn::Abs(nx), hn::Abs(ny));
-  const Floats area = hn::Max(hn::Mul(number(2.0F), hn::Mul(wide, narrow)), number(1e-9F));
-  const Floats both = hn::Div(one, hn::Mul(wide, area));
-  return { hn::Mul(beyond, perLength), nx, ny, wide, narrow, hn::Mul(both, area),
-    hn::Mul(both, wide) };
+  // Curvature of the curve of equal h: from the second derivative along it.
+  const Floats xx = lessLength(moment.xx, length.xx), xy = lessLength(moment.xy, length.xy),
+               yy = lessLength(moment.yy, length.yy);
+  const Floats bentX = hn::Sub(hn::Mul(xx, ny), hn::Mul(xy, nx)),
+               bentY = hn::Sub(hn::Mul(yy, nx), hn::Mul(xy, ny));
+  const Floats bent = hn::Add(hn::Mul(bentX, ny), hn::Mul(bentY, nx));
+  const Floats toCenter = hn::Div(one, hn::Max(hn::Mul(bent, perLength), straightest));
+  return { distance, nx, ny, hn::Neg(hn::Mul(nx, toCenter)), hn::Neg(hn::Mul(ny, toCenter)),
+    hn::Sub(toCenter, distance) };
 }
 
-/// Share of a pixel that lies beyond a straight line at a distance from its centre: the
-/// distribution function of the trapezoid that a square shows in the direction of the normal.
-inline Floats shareBeyond(Floats distance, const Place& place)
+/// How much of a pixel lies beyond a straight line at a distance from its centre: from the
+/// trapezoid that a square shows in the direction of the normal.
+class PixelProfile
 {
-  const Floats half = number(0.5F), one = number(1.0F), zero = number(0.0F);
-  const Floats x = hn::Abs(distance);
-  const Floats flat = hn::Mul(half, hn::Sub(place.wide, place.narrow));
-  const Floats end = hn::Mul(half, hn::Add(place.wide, place.narrow));
-  const Floats left = hn::Max(hn::Sub(end, x), zero);
-  const Floats bent = hn::Sub(one, hn::Mul(hn::Mul(left, left), place.perArea));
-  const Floats straight = hn::Add(half, hn::Mul(x, place.perWide));
-  const Floats share = hn::IfThenElse(hn::Le(x, flat), straight, bent);
-  return hn::IfThenElse(hn::Lt(distance, zero), hn::Sub(one, share), share);
-}
+public:
+  PixelProfile(Floats nx, Floats ny)
+  {
+    const Floats wide = hn::Max(hn::Abs(nx), hn::Abs(ny));
+    const Floats narrow = hn::Min(hn::Abs(nx), hn::Abs(ny));
+    const Floats half = number(0.5F);
+    const Floats area = hn::Max(hn::Mul(number(2.0F), hn::Mul(wide, narrow)), number(1e-9F));
+    const Floats both = hn::Div(number(1.0F), hn::Mul(wide, area));
+    flat_ = hn::Mul(half, hn::Sub(wide, narrow));
+    end_ = hn::Mul(half, hn::Add(wide, narrow));
+    perWide_ = hn::Mul(both, area);
+    perArea_ = hn::Mul(both, wide);
+  }
+
+  /// The share, less 1/2.
+  [[nodiscard]] Floats moreThanHalfBeyond(Floats distance) const
+  {
+    const Floats x = hn::Abs(distance);
+    const Floats left = hn::Max(hn::Sub(end_, x), number(0.0F));
+    const Floats bent = hn::Sub(number(0.5F), hn::Mul(hn::Mul(left, left), perArea_));
+    return hn::CopySign(hn::IfThenElse(hn::Le(x, flat_), hn::Mul(x, perWide_), bent), distance);
+  }
+
+private:
+  Floats flat_, end_, perWide_, perArea_;
+};
 
 /// JumpRamp::at().
 inline Floats rampAt(const JumpRamp& ramp, Floats jump)

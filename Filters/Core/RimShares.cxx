@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "RimShares.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,283 +14,255 @@
 
 #include "RimLanes-inl.h" // after foreach_target.h
 
+#ifndef po_RimShares_cxx
+#define po_RimShares_cxx
+namespace po
+{
+/// What is painted where.
+struct RimPainting
+{
+  const RimEdges& edges;
+  const RayPatch& patch;
+  std::uint32_t firstNumber; ///< of the layer of the edges' spheres
+  const ShownBlock& shown;
+  const SilhouetteRule& rule;
+  const std::vector<EdgeNeighbour>& neighbours;
+};
+}
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace po::HWY_NAMESPACE
 {
 /// A rim farther than this from an edge, in pixels, is not what the edge is the edge of.
 constexpr float FarFromEdge = 1.5F;
 
-/// A pixel whose centre lies about so far within a rim, rounded to whole pixels, shows the sphere.
-constexpr float WithinRim = 0.75F;
-
-/// Some pixels of a tile, one a lane.
-struct TilePixels
-{
-  Integers i, j;
-  Integers at; ///< in blocks that have more around
-  Lanes isEdge;
-};
-
-/// Paints the lines of one tile.
+/// Paints the lines of one block.
 class Painter
 {
 public:
-  Painter(const RimTile& tile, const SilhouetteRule& rule, int reach, RimWork& work)
-    : tile_(tile)
-    , rule_(rule)
-    , reach_(reach)
-    , work_(work)
-    , farthest_(rule.backgroundLines ? std::numeric_limits<float>::infinity()
-                                     : std::numeric_limits<float>::max())
-    , followsJump_(rule.greyByJump || rule.maximumWidth > rule.width)
+  Painter(const RimPainting& all, CoveredPixels& covered, std::uint32_t* codes)
+    : edges_(all.edges)
+    , patch_(all.patch)
+    , firstNumber_(all.firstNumber)
+    , depth_(all.shown.depths.depth.data())
+    , spheres_(all.shown.spheres)
+    , stride_(all.shown.depths.stride())
+    , rule_(all.rule)
+    , neighbours_(all.neighbours)
+    , farthest_(rule_.backgroundLines ? std::numeric_limits<float>::infinity()
+                                      : std::numeric_limits<float>::max())
+    , followsJump_(rule_.greyByJump || rule_.maximumWidth > rule_.width)
+    , covered_(covered)
+    , codes_(codes)
   {
   }
 
-  /// Lists all pixels first: the loops over them are long, and nothing in them depends on what is
-  /// not known yet.
-  void paint(const std::vector<Rim>& rims, RimLines& painted)
+  /// Lists all that is covered first: the loops over it are long, and nothing in them depends on
+  /// what is not known yet.
+  void paint()
   {
-    for (const Rim& rim : rims)
+    const std::size_t edges = edges_.count() + MostLanes;
+    covered_.reserve(edges, edges * neighbours_.size() + MostLanes);
+    for (std::size_t first = 0; first < edges_.count(); first += hn::Lanes(Tag()))
     {
-      listPixels(rim);
+      coverFrom(first);
     }
-    work_.reserveCovered(listed_ + MostLanes);
-    for (std::size_t first = 0; first < listed_; first += hn::Lanes(Tag()))
-    {
-      cover(first, *work_.rims[first / hn::Lanes(Tag())]);
-    }
-    merge(painted);
+    mergeOwn();
+    mergeNeighbours();
   }
 
 private:
-  static constexpr std::size_t MostLanes = 16;
-  /// Without AVX-512 it takes longer to leave out pixels than to merge them with strength 0.
-  static constexpr bool CompressesFast = HWY_TARGET <= HWY_AVX3;
-  /// A place behind the last pixel.
-  static constexpr std::size_t Unused = TileLines::indexOf(0, DepthTileSize) - 1;
-  // In lists of pixels, which are i + 32 j.
-  static constexpr std::int32_t EdgeBit = 1 << 10, NoPixel = 1 << 11;
+  static constexpr std::size_t MostLanes = EdgeGroup::Size;
+  static constexpr int EdgeShift = 16; ///< blocks have fewer pixels than 2^16
+  static constexpr std::uint32_t PixelMask = (1U << EdgeShift) - 1;
+  /// No pixel shows the sphere of this number.
+  static constexpr std::int32_t Nobody = -2;
 
-  /// Lists the pixels that a line can cover, and fills the last group up.
-  void listPixels(const Rim& rim)
+  /// Edges side by side in the list, with what is known of all pixels around them.
+  struct Edges
   {
-    const std::size_t lanes = hn::Lanes(Tag()), first = listed_;
-    work_.reserveListed(first + DepthTileSize * DepthTileSize + MostLanes);
-    std::uint32_t rows = spread(rim.rows) >> Rim::Border & ((1U << tile_.rows) - 1);
-    for (; rows != 0; rows &= rows - 1)
-    {
-      const auto j = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(rows));
-      std::uint32_t edges = 0;
-      for (int row = j + Rim::Border - reach_; row <= j + Rim::Border + reach_; ++row)
-      {
-        edges |= rim.edges[static_cast<std::size_t>(row)];
-      }
-      const std::uint32_t inside = (1U << tile_.columns) - 1;
-      listRow(j, spread(edges) >> Rim::Border & inside,
-        rim.edges[static_cast<std::size_t>(j + Rim::Border)] >> Rim::Border);
-    }
-    if (listed_ > first)
-    {
-      const std::int32_t filling = work_.pixels[listed_ - 1] | NoPixel;
-      hn::StoreU(number(filling), IntegerTag(), work_.pixels.data() + listed_);
-      listed_ += (first - listed_) % lanes;
-    }
-    std::fill(work_.rims.begin() + first / lanes, work_.rims.begin() + listed_ / lanes, &rim);
-  }
+    std::size_t first;
+    Integers place; ///< as in CoveredPixels
+    Integers directions;
+    Integers front; ///< as in LineCode
+    Floats rimDepth, depth;
+    RimCircles rims;
+    PixelProfile profile;
+  };
 
-  /// Sets the bits up to the reach from each bit.
-  [[nodiscard]] std::uint32_t spread(std::uint32_t bits) const
+  /// Notes what the lines along the rims at some edges cover.
+  void coverFrom(std::size_t first)
   {
-    for (int step = 0; step < reach_; ++step)
+    const Integers pixel = load(edges_.pixel, first), toFront = load(edges_.toFront, first);
+    const RimCircles rims = circlesOf(patch_, edges_, first);
+    const Integers rows = hn::ShiftLeft<LineCode::StepBits>(hn::ShiftRight<2>(toFront));
+    const Integers front = hn::Add(hn::Add(rows, hn::And(toFront, number(3))),
+      number((LineCode::NoStep - 1) * (1 + LineCode::StepMask + 1)));
+    const Integers index =
+      hn::Add(hn::Iota(IntegerTag(), 0), number(static_cast<std::int32_t>(first)));
+    // Where jumps matter, each edge has its own.
+    const Integers directions = followsJump_ ? number(-1) : load(edges_.directions, first);
+    const Edges edges{ first, hn::Add(hn::ShiftLeft<EdgeShift>(index), pixel), directions, front,
+      load(edges_.depth, first), hn::GatherIndex(Tag(), depth_, pixel), rims,
+      PixelProfile(rims.nx, rims.ny) };
+    setLimits(edges);
+    coverOwn(edges);
+    for (const EdgeNeighbour& neighbour : neighbours_)
     {
-      bits |= bits << 1 | bits >> 1;
-    }
-    return bits;
-  }
-
-  void listRow(int j, std::uint32_t pixels, std::uint32_t edges)
-  {
-    if constexpr (!CompressesFast)
-    {
-      for (; pixels != 0; pixels &= pixels - 1)
-      {
-        const auto i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(pixels));
-        const bool isEdge = (edges >> i & 1U) != 0;
-        work_.pixels[listed_++] = 32 * j + i + (isEdge ? EdgeBit : 0);
-      }
-      return;
-    }
-    const IntegerTag integers;
-    for (int i = 0; i < DepthTileSize; i += static_cast<int>(hn::Lanes(integers)))
-    {
-      const auto isEdge = maskOf(edges >> i), isListed = maskOf(pixels >> i);
-      const Integers pixel = countFrom(32 * j + i);
-      const Integers marked = hn::Add(pixel, hn::IfThenElseZero(isEdge, number(EdgeBit)));
-      hn::StoreU(hn::Compress(marked, isListed), integers, work_.pixels.data() + listed_);
-      listed_ += hn::CountTrue(integers, isListed);
+      coverNeighbour(edges, neighbour);
     }
   }
 
-  static hn::Mask<IntegerTag> maskOf(std::uint32_t bits)
+  void setLimits(const Edges& edges)
   {
-    const std::uint8_t bytes[8] = { static_cast<std::uint8_t>(bits),
-      static_cast<std::uint8_t>(bits >> 8) };
-    return hn::LoadMaskBits(IntegerTag(), bytes);
+    const Tag d;
+    const Floats jump = number(static_cast<float>(rule_.jump));
+    const Floats limit = hn::Add(edges.rimDepth, jump);
+    hn::StoreU(limit, d, covered_.limit.data() + edges.first);
+    // With the slope test all pixels of the sphere are beside an edge.
+    const Lanes isBeside =
+      hn::And(hn::Gt(edges.depth, limit), hn::Le(edges.depth, number(farthest_)));
+    const auto keepsSphere = hn::RebindMask(IntegerTag(), isBeside);
+    const Integers sphere = rule_.slopeTest
+      ? sphereOf(edges)
+      : hn::IfThenElse(keepsSphere, sphereOf(edges), number(Nobody));
+    store(sphere, covered_.sphere.data() + edges.first);
   }
 
-  /// Notes what the line along a rim covers of some pixels.
-  void cover(std::size_t first, const Rim& rim)
+  void coverOwn(const Edges& edges)
   {
-    const Integers listed = hn::LoadU(IntegerTag(), work_.pixels.data() + first);
-    const auto has = [listed](std::int32_t bit)
-    { return hn::RebindMask(Tag(), hn::Ne(hn::And(listed, number(bit)), number(0))); };
-    const Integers i = hn::And(listed, number(31));
-    const Integers j = hn::And(hn::ShiftRight<5>(listed), number(31));
-    const Integers row = hn::Add(hn::Mul(j, number(tile_.pitch)), number(tile_.first));
-    const TilePixels pixels{ i, j, hn::Add(row, i), has(EdgeBit) };
-    const auto fromMiddle = [](Integers place)
-    { return hn::ConvertTo(Tag(), hn::Sub(place, number(DepthTileSize / 2))); };
-    const Place place = placeOf(rim.squaredMoment, *rim.patch, fromMiddle(i), fromMiddle(j));
-
-    const Integers sphere = number(static_cast<std::int32_t>(rim.shown));
-    const Lanes isHere = hn::RebindMask(Tag(), hn::Eq(gather(tile_.shown, pixels.at), sphere));
-    const Floats jump = jumpOf(pixels, isHere, rim);
-    const Lanes isBehind = hn::And(
-      hn::Gt(jump, number(static_cast<float>(rule_.jump))), hn::Le(jump, number(farthest_)));
-    // Pixels of the sphere are beside an edge.
-    const Lanes isBeside = rule_.slopeTest ? hn::Or(isHere, isBehind) : isBehind;
-    const Lanes isLine = hn::AndNot(has(NoPixel), hn::Or(pixels.isEdge, isBeside));
-    const Share share = shareOf(place, jump, pixels.isEdge);
-    const Lanes isCovered = hn::And(isLine, hn::Gt(share.strength, number(0.0F)));
-    note(isCovered, hn::Add(hn::Mul(j, number(TileLines::Pitch)), i), share,
-      stepsToFront(place, isHere), rim.shown);
+    const Share share = shareOf(edges, edges.rims.distance, edges.depth);
+    const Lanes isFar = hn::Gt(hn::Abs(edges.rims.distance), number(FarFromEdge));
+    const Integers strength =
+      rounded(hn::IfThenElse(isFar, share.weight, share.strength), LineCode::StrengthScale);
+    const Integers code = codeOf(edges, strength, share.inside, { 0, 0, 0 });
+    store(
+      hn::IfThenElseZero(hn::Gt(strength, number(0)), code), covered_.ownCode.data() + edges.first);
   }
 
-  /// From the rim to what lies behind it. Pixels of the sphere are covered in part, by what lies
-  /// behind at the edges around: the farthest counts. It is not asked for where jumps do not
-  /// matter.
-  [[nodiscard]] Floats jumpOf(const TilePixels& pixels, Lanes isHere, const Rim& rim) const
+  void coverNeighbour(const Edges& edges, const EdgeNeighbour& neighbour)
   {
-    Floats behind = hn::GatherIndex(Tag(), tile_.depth, pixels.at);
-    if ((followsJump_ || !rule_.slopeTest) && !hn::AllFalse(Tag(), isHere))
-    {
-      behind = hn::IfThenElse(isHere, farthestAround(pixels.at, rim), behind);
-    }
-    return hn::Sub(behind, number(rim.depth));
+    const Floats distance = edges.rims.distanceAt(neighbour.column, neighbour.row);
+    const Floats behind = followsJump_ ? behindRim(edges, neighbour) : edges.depth;
+    const Share share = shareOf(edges, distance, behind);
+    const Integers strength = rounded(share.strength, LineCode::StrengthScale);
+    const auto kept = hn::And(
+      hn::Gt(strength, number(0)), hn::TestBit(edges.directions, number(neighbour.direction)));
+    const auto note = [&](Integers values, std::vector<std::uint32_t>& to)
+    { store(hn::Compress(values, kept), to.data() + count_); };
+    const Integers offset = number(neighbour.row * stride_ + neighbour.column);
+    note(hn::Add(edges.place, offset), covered_.place);
+    note(codeOf(edges, strength, share.inside, neighbour), covered_.code);
+    count_ += hn::CountTrue(IntegerTag(), kept);
   }
 
-  [[nodiscard]] Floats farthestAround(Integers pixels, const Rim& rim) const
+  /// Depth behind the rim in pixels beside edges: a pixel of the sphere is covered in part by what
+  /// the edge shows.
+  [[nodiscard]] Floats behindRim(const Edges& edges, const EdgeNeighbour& neighbour) const
   {
-    const Integers sphere = number(static_cast<std::int32_t>(rim.shown));
-    Floats farthest = number(std::numeric_limits<float>::lowest());
-    for (int row = -reach_; row <= reach_; ++row)
-    {
-      for (int column = -reach_; column <= reach_; ++column)
-      {
-        const Integers at = hn::Add(pixels, number(row * tile_.pitch + column));
-        const auto isRim = hn::Eq(gather(tile_.fronts, at), sphere);
-        if (!hn::AllFalse(IntegerTag(), isRim))
-        {
-          const Floats depth = hn::GatherIndex(Tag(), tile_.depth, at);
-          farthest =
-            hn::IfThenElse(hn::RebindMask(Tag(), isRim), hn::Max(farthest, depth), farthest);
-        }
-      }
-    }
-    return farthest;
+    const Integers offset = number(neighbour.row * stride_ + neighbour.column);
+    const Integers pixel = hn::Add(load(edges_.pixel, edges.first), offset);
+    const auto* spheres = reinterpret_cast<const std::int32_t*>(spheres_);
+    const Integers shown = hn::GatherIndex(IntegerTag(), spheres, pixel);
+    const Lanes isHere = hn::RebindMask(Tag(), hn::Eq(shown, sphereOf(edges)));
+    return hn::IfThenElse(isHere, edges.depth, hn::GatherIndex(Tag(), depth_, pixel));
+  }
+
+  [[nodiscard]] Integers sphereOf(const Edges& edges) const
+  {
+    return hn::Add(
+      load(edges_.place, edges.first), number(static_cast<std::int32_t>(firstNumber_)));
   }
 
   /// What the line covers of pixels, and what lies within the rim.
   struct Share
   {
-    Floats strength, inside;
+    Floats strength, inside, weight;
   };
 
-  [[nodiscard]] Share shareOf(const Place& place, Floats jump, Lanes isEdge) const
+  [[nodiscard]] Share shareOf(const Edges& edges, Floats distance, Floats behind) const
   {
     Floats width = number(static_cast<float>(rule_.width)), weight = number(1.0F);
     if (followsJump_)
     {
-      const Floats ramp = rampAt(rule_.ramp, jump);
+      const Floats ramp = rampAt(rule_.ramp, hn::Sub(behind, edges.rimDepth));
       const auto growth = static_cast<float>(rule_.maximumWidth - rule_.width);
       width = hn::Add(width, hn::Mul(ramp, number(growth)));
       weight = rule_.greyByJump ? ramp : weight;
     }
-    const Floats beyond = shareBeyond(place.distance, place);
-    const Floats outer = shareBeyond(hn::Sub(place.distance, width), place);
-    const Lanes isFar = hn::Gt(hn::Abs(place.distance), number(FarFromEdge));
-    const Floats covered =
-      hn::IfThenElse(hn::And(isEdge, isFar), number(1.0F), hn::Sub(beyond, outer));
+    const Floats beyond = edges.profile.moreThanHalfBeyond(distance);
+    const Floats outer = edges.profile.moreThanHalfBeyond(hn::Sub(distance, width));
     const Floats inside =
-      hn::IfThenElseZero(hn::Ge(place.distance, number(0.0F)), hn::Sub(number(1.0F), beyond));
-    return { hn::Mul(covered, weight), hn::Mul(inside, weight) };
+      hn::IfThenElseZero(hn::Ge(distance, number(0.0F)), hn::Sub(number(0.5F), beyond));
+    return { hn::Mul(hn::Sub(beyond, outer), weight), hn::Mul(inside, weight), weight };
   }
 
-  /// The way from a pixel to one of the sphere: none, or straight to the rim and a little further.
-  [[nodiscard]] Integers stepsToFront(const Place& place, Lanes isHere) const
+  static Integers rounded(Floats value, float scale)
   {
-    const Floats way = hn::Min(hn::Max(hn::Add(place.distance, number(WithinRim)), number(0.0F)),
-      number(static_cast<float>(reach_ + 1)));
-    const Floats back = hn::IfThenZeroElse(isHere, hn::Neg(way));
-    const Integers i = hn::NearestInt(hn::Mul(place.nx, back));
-    const Integers j = hn::NearestInt(hn::Mul(place.ny, back));
-    const Integers row = hn::ShiftLeft<RimLines::RowBits>(j);
-    return hn::Add(hn::Add(row, i), number(RimLines::NoStep));
+    return hn::NearestInt(hn::Mul(value, number(scale)));
   }
 
-  void note(Lanes which, Integers at, const Share& share, Integers steps, std::uint32_t shown)
+  /// LineCode.
+  [[nodiscard]] static Integers codeOf(
+    const Edges& edges, Integers strength, Floats inside, const EdgeNeighbour& neighbour)
   {
-    const Tag d;
-    const IntegerTag integers;
-    const auto store = [&](auto tag, auto values, auto* to)
+    const Integers high =
+      hn::Or(hn::ShiftLeft<LineCode::InsideBits>(strength), rounded(inside, LineCode::InsideScale));
+    const Integers front =
+      hn::Sub(edges.front, number(neighbour.row * (LineCode::StepMask + 1) + neighbour.column));
+    return hn::Or(hn::ShiftLeft<LineCode::FrontBits>(high), front);
+  }
+
+  static void store(Integers values, std::uint32_t* to)
+  {
+    hn::StoreU(values, IntegerTag(), reinterpret_cast<std::int32_t*>(to));
+  }
+
+  void mergeOwn() const
+  {
+    for (std::size_t k = 0; k < edges_.count(); ++k)
     {
-      const auto kept = hn::RebindMask(tag, which);
-      if constexpr (CompressesFast)
-      {
-        hn::StoreU(hn::Compress(values, kept), tag, to + covered_);
-      }
-      else
-      {
-        hn::StoreU(hn::IfThenElseZero(kept, values), tag, to + covered_);
-      }
-    };
-    store(integers, at, work_.at.data());
-    store(integers, steps, work_.steps.data());
-    store(d, share.strength, work_.strength.data());
-    store(d, share.inside, work_.inside.data());
-    hn::StoreU(number(static_cast<std::int32_t>(shown)), integers,
-      reinterpret_cast<std::int32_t*>(work_.shown.data()) + covered_);
-    covered_ += CompressesFast ? hn::CountTrue(d, which) : hn::Lanes(d);
-  }
-
-  /// Keeps what is stronger than what is there. Without branches, which nothing could predict.
-  void merge(RimLines& painted) const
-  {
-    for (std::size_t k = 0; k < covered_; ++k)
-    {
-      const auto at = static_cast<std::size_t>(work_.at[k]);
-      const float before = painted.lines.strength[at], now = work_.strength[k];
-      const std::size_t to = now > before ? at : Unused;
-      painted.lines.strength[at] = std::max(now, before);
-      painted.lines.inside[to] = work_.inside[k];
-      painted.steps[to] = work_.steps[k];
-      painted.shown[to] = work_.shown[k];
+      std::uint32_t& code = codes_[edges_.pixel[k]];
+      code = std::max(code, covered_.ownCode[k]);
     }
   }
 
-  const RimTile& tile_;
+  /// Pixels of the sphere, and what lies behind its rim. Without branches, which nothing could
+  /// predict.
+  void mergeNeighbours() const
+  {
+    for (std::size_t k = 0; k < count_; ++k)
+    {
+      const std::uint32_t edge = covered_.place[k] >> EdgeShift,
+                          pixel = covered_.place[k] & PixelMask;
+      const float depth = depth_[pixel];
+      const unsigned isHere = spheres_[pixel] == covered_.sphere[edge] ? 1 : 0;
+      const unsigned isBehind =
+        (depth > covered_.limit[edge] ? 1U : 0U) & (depth <= farthest_ ? 1U : 0U);
+      const std::uint32_t code = covered_.code[k] | (isHere * LineCode::Here);
+      codes_[pixel] = std::max(codes_[pixel], code & (0 - (isHere | isBehind)));
+    }
+  }
+
+  const RimEdges& edges_;
+  const RayPatch& patch_;
+  std::uint32_t firstNumber_;
+  const float* depth_;
+  const std::uint32_t* spheres_;
+  int stride_;
   const SilhouetteRule& rule_;
-  int reach_;
-  RimWork& work_;
-  float farthest_; ///< largest jump that a line beside an edge is drawn for
+  const std::vector<EdgeNeighbour>& neighbours_;
+  float farthest_; ///< that lines are drawn behind
   bool followsJump_;
-  std::size_t listed_ = 0, covered_ = 0;
+  CoveredPixels& covered_;
+  std::uint32_t* codes_;
+  std::size_t count_ = 0; ///< of covered pixels beside edges
 };
 
-void paintLines(const RimTile& tile, const std::vector<Rim>& rims, const SilhouetteRule& rule,
-  int reach, RimWork& work, RimLines& painted)
+void paintLines(const RimPainting& all, CoveredPixels& covered, std::uint32_t* codes)
 {
-  Painter(tile, rule, reach, work).paint(rims, painted);
+  Painter(all, covered, codes).paint();
 }
 }
 HWY_AFTER_NAMESPACE();
@@ -299,24 +272,18 @@ namespace po
 {
 HWY_EXPORT(paintLines);
 
-void RimWork::reserveListed(std::size_t count)
+void CoveredPixels::reserve(std::size_t edges, std::size_t neighbours)
 {
-  if (pixels.size() < count)
+  if (limit.size() < edges)
   {
-    pixels.resize(2 * count);
-    rims.resize(2 * count);
+    ownCode.resize(edges);
+    limit.resize(edges);
+    sphere.resize(edges);
   }
-}
-
-void RimWork::reserveCovered(std::size_t count)
-{
-  if (at.size() < count)
+  if (place.size() < neighbours)
   {
-    at.resize(count);
-    steps.resize(count);
-    strength.resize(count);
-    inside.resize(count);
-    shown.resize(count);
+    place.resize(neighbours);
+    code.resize(neighbours);
   }
 }
 
@@ -324,11 +291,24 @@ RimBrush::RimBrush(const SilhouetteRule& rule)
   : rule_(rule)
   , reach_(static_cast<int>(std::ceil(rule.maximumWidth)))
 {
+  const auto sign = [](int number) { return (number > 0) - (number < 0); };
+  for (int row = -reach_; row <= reach_; ++row)
+  {
+    for (int column = -reach_; column <= reach_; ++column)
+    {
+      if (row != 0 || column != 0)
+      {
+        neighbours_.push_back({ column, row, 1 << (3 * (sign(row) + 1) + sign(column) + 1) });
+      }
+    }
+  }
 }
 
-void RimBrush::paint(const RimTile& tile, const std::vector<Rim>& rims, RimLines& painted)
+void RimBrush::paint(const RimEdges& edges, const RayPatch& patch, std::uint32_t firstNumber,
+  const ShownBlock& shown, StrongestLines& lines)
 {
-  HWY_DYNAMIC_DISPATCH(paintLines)(tile, rims, rule_, reach_, work_, painted);
+  HWY_DYNAMIC_DISPATCH(paintLines)
+  ({ edges, patch, firstNumber, shown, rule_, neighbours_ }, covered_, lines.codes());
 }
 }
 #endif

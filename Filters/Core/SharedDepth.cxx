@@ -166,10 +166,12 @@ void SharedDepth::addRow(const Sphere& sphere, std::uint32_t number,
   }
 }
 
-SphereDepth::NumberedSphere SharedDepth::sphereOf(std::uint32_t number) const
+SphereLayer SharedDepth::layer(std::size_t index) const
 {
-  const auto next = std::upper_bound(firstSpheres_.begin(), firstSpheres_.end(), number);
-  return { static_cast<std::size_t>(next - firstSpheres_.begin() - 1), &spheres_[number] };
+  const std::size_t end =
+    index + 1 < firstSpheres_.size() ? firstSpheres_[index + 1] : spheres_.size();
+  const std::uint32_t first = firstSpheres_[index];
+  return { spheres_.data() + first, first, static_cast<std::uint32_t>(end) - first, &rays_[index] };
 }
 
 float SharedDepth::windowDepth(int pixel) const
@@ -187,6 +189,7 @@ float SharedDepth::windowDepth(int pixel) const
 int SharedDepth::processOf(int pixel) const
 {
   const std::uint32_t sphere = frame_.sphere[static_cast<std::size_t>(pixel)];
-  return sphere == SphereScene::None ? 0 : processes_[sphereOf(sphere).layer];
+  const auto next = std::upper_bound(firstSpheres_.begin(), firstSpheres_.end(), sphere);
+  return sphere == SphereScene::None ? 0 : processes_[next - firstSpheres_.begin() - 1];
 }
 }

@@ -38,13 +38,12 @@ public:
   [[nodiscard]] const std::vector<DepthRange>& ranges() const override { return frame_.tiles; }
   void fill(SampleBlock& block) const override { merged_->fill(block); }
 
-  [[nodiscard]] NumberedSphere sphereOf(std::uint32_t number) const override;
   void fillSpheres(const SampleBlock& block, std::vector<std::uint32_t>& numbers) const override
   {
     merged_->fillSpheres(block, numbers);
   }
   [[nodiscard]] std::size_t layerCount() const override { return rays_.size(); }
-  [[nodiscard]] const PrimaryRays& raysOf(std::size_t layer) const override { return rays_[layer]; }
+  [[nodiscard]] SphereLayer layer(std::size_t index) const override;
 
 private:
   void clear(int width, int height);

@@ -17,15 +17,13 @@
 /// The loop over tiles that all ways to draw silhouettes share.
 namespace po
 {
-/// The lines of one tile. Rows are longer than the tile, for whole vectors.
+/// The lines of one tile, row by row.
 struct TileLines
 {
-  static constexpr int Pitch = DepthTileSize + 8;
-
   template <typename T>
-  using Pixels = std::array<T, DepthTileSize * Pitch>;
+  using Pixels = std::array<T, DepthTileSize * DepthTileSize>;
 
-  [[nodiscard]] static constexpr int indexOf(int i, int j) { return j * Pitch + i; }
+  [[nodiscard]] static constexpr int indexOf(int i, int j) { return j * DepthTileSize + i; }
 
   // As in SilhouetteImage; the last two where there is a line.
   Pixels<float> strength, inside;

@@ -77,7 +77,7 @@ void TileFiller::findBlocks(const SweepScene::Band& band, const DepthTiles& tile
 /// close takes ten times as long as to find that out.
 void TileFiller::closeCells(const SweepScene::Band& band, const DepthTiles& tiles)
 {
-  cells_.begin(tiles.area(), band.largestRadius);
+  cells_.begin(tiles.area(), band.smallestRadius, band.largestRadius);
   closeBy(band, [this](const NearBlock& block) { return shownOf(block); });
   if (&participants_.spheres != &participants_.shown)
   {

@@ -157,14 +157,11 @@ TracedDepth::TracedDepth(std::vector<TracedLayer> layers)
   }
 }
 
-TracedDepth::NumberedSphere TracedDepth::sphereOf(std::uint32_t number) const
+SphereLayer TracedDepth::layer(std::size_t index) const
 {
-  std::size_t layer = layers_.size() - 1;
-  while (number < firstSpheres_[layer])
-  {
-    --layer;
-  }
-  return { layer, &layers_[layer].spheres[number - firstSpheres_[layer]] };
+  const std::vector<Sphere>& spheres = layers_[index].spheres;
+  return { spheres.data(), firstSpheres_[index], static_cast<std::uint32_t>(spheres.size()),
+    &layers_[index].rays };
 }
 
 std::uint32_t TracedDepth::numberAt(std::size_t pixel) const

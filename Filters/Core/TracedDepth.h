@@ -31,13 +31,9 @@ public:
   void fill(SampleBlock& block) const override;
 
   /// The spheres of the layers are counted one after the other.
-  [[nodiscard]] NumberedSphere sphereOf(std::uint32_t number) const override;
   void fillSpheres(const SampleBlock& block, std::vector<std::uint32_t>& numbers) const override;
   [[nodiscard]] std::size_t layerCount() const override { return layers_.size(); }
-  [[nodiscard]] const PrimaryRays& raysOf(std::size_t layer) const override
-  {
-    return layers_[layer].rays;
-  }
+  [[nodiscard]] SphereLayer layer(std::size_t index) const override;
 
 private:
   [[nodiscard]] std::uint32_t numberAt(std::size_t pixel) const;

@@ -208,7 +208,9 @@ TEST(TracedSilhouettes, OfTwoJumpsAtARimTheLargerCountsInFront)
         continue;
       }
       const double jump = isFront ? around : frame.t[at] - rim;
-      EXPECT_NEAR(grey[at] / plain[at], ramp.at(static_cast<float>(jump)), 2e-3) << x << ", " << y;
+      // Another of the edges around may tell how far the rim is.
+      const double expected = plain[at] * ramp.at(static_cast<float>(jump));
+      EXPECT_NEAR(grey[at], expected, 3e-3) << x << ", " << y;
       inFront += isFront && jump > 0;
       behind += !isFront;
       both += isFront && bordersOnBoth(frame, x, y);
@@ -239,5 +241,65 @@ TEST(TracedSilhouettes, GreyByJumpIsThatOfSupersampling)
     // Samples measure from beside the rim, 4 % more of these jumps than from the rim itself.
     EXPECT_NEAR(sum / trueSum, 1, 0.1);
     EXPECT_LT(std::sqrt(square / static_cast<double>(count(truth))), 0.02);
+  }
+}
+
+/// Rings around particles of radii from 0.7 to 15 pixels, in a wide view and obliquely, against the
+/// filter of 8 x 8 traced samples a pixel.
+TEST(TracedSilhouettes, RingsOfSmallParticlesAreThoseOfSupersampling)
+{
+  std::vector<std::array<double, 4>> spheres;
+  for (int k = 0; k < 30; ++k)
+  {
+    // In six columns and five rows, none before another.
+    const double radius = 0.07 + 1.43 * k / 29.0;
+    spheres.push_back(
+      { 3.3 * (k % 6 - 2.5) + 0.013 * k, 3.4 * (k / 6 - 2) + 0.017 * k, 0, radius });
+  }
+  for (const bool perspective : { true, false })
+  {
+    for (const double width : { 1.0, 3.0 })
+    {
+      // Ten pixels a unit in the middle.
+      const Camera camera = lookAtOrigin(perspective, 24, 9, 240, 180, 1, 200);
+      SilhouetteParameters parameters = threshold(6, 8);
+      parameters.width = width;
+      const auto ours = Traced(spheres, camera).lines(parameters).strength;
+      const auto truth = filtered(spheres, camera, parameters);
+      double area = 0, trueArea = 0, square = 0;
+      for (std::size_t pixel = 0; pixel < ours.size(); ++pixel)
+      {
+        area += ours[pixel];
+        trueArea += truth[pixel];
+        square += std::pow(ours[pixel] - truth[pixel], 2);
+      }
+      EXPECT_NEAR(area / trueArea * width, width, 0.1) << perspective;
+      EXPECT_LT(std::sqrt(square / trueArea), 0.1) << perspective << ' ' << width;
+    }
+  }
+}
+
+/// Of the edges beside a pixel only some are asked how far the rim is, but where lines follow
+/// jumps all are: with jumps that make no difference the lines are the same.
+TEST(TracedSilhouettes, NoPixelOfALineIsLeftOut)
+{
+  const Traced traced(heap(), lookAtOrigin(true, 50, 12, 301, 215, 1, 200));
+  for (const double width : { 1.0, 3.0, 8.0 })
+  {
+    SilhouetteParameters parameters = threshold(3, 4);
+    parameters.width = width;
+    const auto some = traced.lines(parameters).strength;
+    parameters.greyByJump = true;
+    parameters.jumpFrom = 1e-7;
+    parameters.jumpTo = 1e-6;
+    const auto all = traced.lines(parameters).strength;
+    double square = 0;
+    for (std::size_t pixel = 0; pixel < all.size(); ++pixel)
+    {
+      // They tell distances from the circles that touch the rim at each of them.
+      EXPECT_NEAR(some[pixel], all[pixel], width > 3 ? 0.35 : 0.1) << width;
+      square += std::pow(some[pixel] - all[pixel], 2);
+    }
+    EXPECT_LT(std::sqrt(square / static_cast<double>(count(all))), 0.02) << width;
   }
 }
