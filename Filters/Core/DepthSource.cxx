@@ -3,10 +3,10 @@
 
 namespace po
 {
-double depthSpread(const DepthSource& source)
+double depthSpread(const std::vector<DepthRange>& ranges)
 {
   std::vector<double> depths;
-  for (const DepthRange& range : source.ranges())
+  for (const DepthRange& range : ranges)
   {
     if (range.hasGeometry())
     {

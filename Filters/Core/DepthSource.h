@@ -124,7 +124,11 @@ public:
 /// How far the visible depths spread: the 5th to the 95th percentile of the nearest and farthest
 /// depths of the tiles, a histogram that costs no pass over the pixels. 0 where nothing
 /// is seen.
-[[nodiscard]] double depthSpread(const DepthSource& source);
+[[nodiscard]] double depthSpread(const std::vector<DepthRange>& ranges);
+[[nodiscard]] inline double depthSpread(const DepthSource& source)
+{
+  return depthSpread(source.ranges());
+}
 }
 
 #endif

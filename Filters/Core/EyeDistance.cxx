@@ -50,16 +50,23 @@ void eyeDistances(const WindowToEye& windowToEye, const std::vector<float>& zBuf
   tbb::parallel_for(tbb::blocked_range<int>(0, height),
     [&](const tbb::blocked_range<int>& rows)
     {
-      for (int j = rows.begin(); j < rows.end(); ++j)
-      {
-        const double y = pixelCenter(j, height);
-        for (int i = 0; i < width; ++i)
-        {
-          const std::size_t pixel = static_cast<std::size_t>(j) * width + i;
-          distances[pixel] =
-            static_cast<float>(eyeDistance(windowToEye, pixelCenter(i, width), y, zBuffer[pixel]));
-        }
-      }
+      const PixelRange pixels{ 0, rows.begin(), width, rows.end() };
+      eyeDistances(windowToEye, zBuffer, width, height, pixels, distances);
     });
+}
+
+void eyeDistances(const WindowToEye& windowToEye, const std::vector<float>& zBuffer, int width,
+  int height, const PixelRange& pixels, std::vector<float>& distances)
+{
+  for (int j = pixels.y0; j < pixels.y1; ++j)
+  {
+    const double y = pixelCenter(j, height);
+    for (int i = pixels.x0; i < pixels.x1; ++i)
+    {
+      const std::size_t pixel = static_cast<std::size_t>(j) * width + i;
+      distances[pixel] =
+        static_cast<float>(eyeDistance(windowToEye, pixelCenter(i, width), y, zBuffer[pixel]));
+    }
+  }
 }
 }

@@ -2,6 +2,7 @@
 #ifndef po_EyeDistance_h
 #define po_EyeDistance_h
 
+#include "Camera.h"
 #include "Matrix4.h"
 
 #include <vector>
@@ -31,6 +32,10 @@ struct WindowToEye
 /// The distances of all pixels of a z-buffer, row by row from the bottom, in parallel.
 void eyeDistances(const WindowToEye& windowToEye, const std::vector<float>& zBuffer, int width,
   int height, std::vector<float>& distances);
+
+/// Those of some pixels, on this thread; `distances` has the size of the z-buffer.
+void eyeDistances(const WindowToEye& windowToEye, const std::vector<float>& zBuffer, int width,
+  int height, const PixelRange& pixels, std::vector<float>& distances);
 
 /// Centre of pixel i of `count` pixels, in [-1, 1].
 [[nodiscard]] inline double pixelCenter(int i, int count)

@@ -29,8 +29,10 @@ public:
   [[nodiscard]] const std::vector<DepthRange>& ranges() const override { return ranges_; }
   void fill(SampleBlock& block) const override;
 
-private:
+  /// The range of one tile, as the image is now.
   [[nodiscard]] DepthRange findRange(int tileX, int tileY) const;
+
+private:
   void fillRow(SampleBlock& block, int j) const;
 
   DepthImage<T> image_;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SharedDepth.h"
 
+#include "ArrivedTiles.h"
 #include "SharedTiles.h"
 #include "SphereDistances.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -87,21 +87,11 @@ void SharedDepth::assemble(
     rays_.push_back(raysFor(camera, placement));
   }
   // Of pixels with the same depth the first process has its way.
-  std::stable_sort(arrived.tiles.begin(), arrived.tiles.end(),
-    [](const SharedTile& a, const SharedTile& b) { return a.tile < b.tile; });
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < arrived.tiles.size(); ++i)
-  {
-    if (i == 0 || arrived.tiles[i].tile != arrived.tiles[i - 1].tile)
-    {
-      starts.push_back(i);
-      filled_.push_back(arrived.tiles[i].tile);
-    }
-  }
-  starts.push_back(arrived.tiles.size());
-  tbb::parallel_for(std::size_t(1), starts.size(),
-    [&](std::size_t i)
-    { setTile(arrived, &arrived.tiles[starts[i - 1]], arrived.tiles.data() + starts[i]); });
+  forEachTileOf(arrived.tiles,
+    [&](const SharedTile* first, const SharedTile* last) { setTile(arrived, first, last); });
+  std::transform(arrived.tiles.begin(), arrived.tiles.end(), std::back_inserter(filled_),
+    [](const SharedTile& tile) { return tile.tile; });
+  filled_.erase(std::unique(filled_.begin(), filled_.end()), filled_.end());
   firstSpheres_ = std::move(arrived.firstSphere);
   processes_ = std::move(arrived.processes);
   spheres_ = std::move(arrived.spheres);

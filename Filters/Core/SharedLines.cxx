@@ -61,7 +61,7 @@ LinePixel pixelOf(std::uint64_t word)
   return pixel;
 }
 
-void appendTile(const SilhouetteImage& image, int tile, const SharedDepth& depth, bool placed,
+void appendTile(const SilhouetteImage& image, int tile, const DividedDepth& depth, bool placed,
   Words& words, std::vector<float>& depths)
 {
   const int columns = depthTiles(image.width);
@@ -122,7 +122,7 @@ void clear(PlacedLines& lines)
 }
 }
 
-void appendLines(const SilhouetteImage& image, int firstRow, int endRow, const SharedDepth& depth,
+void appendLines(const SilhouetteImage& image, int firstRow, int endRow, const DividedDepth& depth,
   bool placed, Words& words)
 {
   const int columns = depthTiles(image.width);

@@ -4,9 +4,8 @@
 
 // Lines on their way between processes: 8 bytes a pixel that has one, 12 with its depth.
 
+#include "DividedDepth.h"
 #include "ProcessGroup.h"
-#include "SharedDepth.h"
-#include "SilhouetteFinder.h"
 
 #include <cstdint>
 #include <vector>
@@ -28,7 +27,7 @@ struct PlacedLines
 /// @param firstRow, endRow of tiles
 /// @param depth that they were found in
 /// @param placed with window depths
-void appendLines(const SilhouetteImage& image, int firstRow, int endRow, const SharedDepth& depth,
+void appendLines(const SilhouetteImage& image, int firstRow, int endRow, const DividedDepth& depth,
   bool placed, ProcessGroup::Words& words);
 
 /// Replaces all lines by those of the words, which are placed or not.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SharedSilhouettes.h"
 
-#include "SharedTiles.h"
-#include "SilhouetteRims.h"
+#include "DividedSpheres.h"
+#include "SharedWords.h"
 #include "SilhouetteTiles.h"
 
 #include <algorithm>
@@ -13,8 +13,6 @@ namespace po
 namespace
 {
 using Words = ProcessGroup::Words;
-
-constexpr std::size_t WordBytes = sizeof(std::uint64_t);
 
 /// What all processes together see in a tile, from the ranges of each.
 struct SharedRange
@@ -72,6 +70,19 @@ std::vector<DepthRange> boundsOf(const Words& words, std::size_t tiles)
   return bounds;
 }
 
+/// Flags of tiles in which more than one process has something.
+std::vector<std::uint8_t> tilesOfSeveral(const Words& words, std::size_t tiles)
+{
+  std::vector<std::uint8_t> has(tiles, 0), several(tiles, 0);
+  for (std::size_t at = 0; at < words.size(); at += 3)
+  {
+    const std::size_t tile = words[at] >> 1U;
+    several[tile] = has[tile];
+    has[tile] = 1;
+  }
+  return several;
+}
+
 /// Divides the rows of tiles so that each process has about as many that are searched.
 std::vector<int> divideRows(const std::vector<int>& searched, int columns, int rows, int processes)
 {
@@ -114,64 +125,82 @@ std::vector<std::uint8_t> tilesAround(const std::vector<int>& searched, int colu
   return needed;
 }
 
-/// What a process has to say about some rows of tiles: those that are needed, unless others hide
-/// them.
-Words tilesOf(const std::vector<TracedLayer>& own, int process,
-  const std::vector<std::uint8_t>& needed, const std::vector<DepthRange>& ranges, int begin,
-  int end)
+/// Clears the ranges of the tiles that are not in these rows, the second of which is the end.
+void keepRows(std::pair<int, int> rows, int columns, std::vector<DepthRange>& ranges)
 {
-  Words words;
-  for (const TracedLayer& layer : own)
+  for (std::size_t tile = 0; tile < ranges.size(); ++tile)
   {
-    std::vector<int> tiles;
-    for (int tile = begin; tile < end; ++tile)
+    const int row = static_cast<int>(tile) / columns;
+    if (row < rows.first || row >= rows.second)
     {
-      const auto at = static_cast<std::size_t>(tile);
-      const DepthRange& range = layer.frame.tiles[at];
-      if (needed[at] != 0 && range.hasGeometry() && range.nearest <= ranges[at].farthest)
-      {
-        tiles.push_back(tile);
-      }
-    }
-    if (!tiles.empty())
-    {
-      appendTiles(layer, tiles, process, words);
+      ranges[tile] = {};
     }
   }
-  return words;
+}
+
+/// Those of the tiles from `begin` to `end` that are flagged.
+std::vector<int> tilesIn(const std::vector<std::uint8_t>& flags, int begin, int end)
+{
+  std::vector<int> tiles;
+  for (int tile = begin; tile < end; ++tile)
+  {
+    if (flags[static_cast<std::size_t>(tile)] != 0)
+    {
+      tiles.push_back(tile);
+    }
+  }
+  return tiles;
 }
 }
 
 void SharedSilhouettes::find(const std::vector<TracedLayer>& own, const Camera& camera,
   const SilhouetteRule& rule, const ProcessGroup& group, int destination, bool placed)
 {
+  DividedSpheres spheres(own, camera, group.rank(), depth_);
+  find(spheres, rule, group, destination, placed);
+}
+
+void SharedSilhouettes::find(DividedDepth& depth, const SilhouetteRule& rule,
+  const ProcessGroup& group, int destination, bool placed)
+{
   bytes_ = {};
-  width_ = camera.width;
-  height_ = camera.height;
-  std::vector<DepthRange> ranges = shareRanges(own, group);
+  width_ = depth.width();
+  height_ = depth.height();
+  std::vector<DepthRange> ranges = boundsOf(shareRanges(depth.ownRanges(), group), tiles());
   const std::vector<int> searched = searchedTiles(ranges, rule);
-  rows_ = divideRows(searched, columns(), rows(), group.size());
-  const Words tiles = exchangeTiles(own, ranges, searched, group);
-  const int first = rowsOf(group.rank()).first, end = rowsOf(group.rank()).second;
-  for (int tile = 0; tile < rows() * columns(); ++tile)
-  {
-    if (tile < (first - 1) * columns() || tile >= (end + 1) * columns())
-    {
-      ranges[static_cast<std::size_t>(tile)] = {}; // not looked at here
-    }
-  }
-  depth_.assemble(camera, tiles, std::move(ranges));
+  exchangeTiles(
+    depth, std::move(ranges), searched, tilesAround(searched, columns(), rows()), group);
   Words ownLines;
-  if (!depth_.empty())
+  if (!depth.empty())
   {
-    findTracedSilhouettes(depth_, rule, found_, { true, true });
-    appendLines(found_, first, end, depth_, placed, ownLines);
+    depth.findLines(rule, found_);
+    const auto [first, end] = rowsOf(group.rank());
+    appendLines(found_, first, end, depth, placed, ownLines);
   }
   const bool toAll = destination < 0;
   const int receivers = toAll ? group.size() - 1 : static_cast<int>(destination != group.rank());
   bytes_.lines = WordBytes * ownLines.size() * static_cast<std::size_t>(receivers);
   readLines(toAll ? group.gather(ownLines) : group.gatherAt(destination, ownLines), width_, height_,
     placed, lines_);
+}
+
+double SharedSilhouettes::depthSpread(DividedDepth& depth, const ProcessGroup& group)
+{
+  bytes_ = {};
+  width_ = depth.width();
+  height_ = depth.height();
+  const Words words = shareRanges(depth.ownRanges(), group);
+  std::vector<DepthRange> ranges = boundsOf(words, tiles());
+  const std::vector<std::uint8_t> shared = tilesOfSeveral(words, tiles());
+  const std::vector<int> wanted = tilesIn(shared, 0, static_cast<int>(tiles()));
+  if (wanted.empty())
+  {
+    return po::depthSpread(ranges);
+  }
+  exchangeTiles(depth, std::move(ranges), wanted, shared, group);
+  std::vector<DepthRange> own = depth.ranges();
+  keepRows(rowsOf(group.rank()), columns(), own);
+  return po::depthSpread(boundsOf(shareRanges(own, group), tiles()));
 }
 
 void SharedSilhouettes::shareColors(const std::uint8_t* own, bool all, const ProcessGroup& group)
@@ -228,13 +257,17 @@ std::pair<int, int> SharedSilhouettes::rowsOf(int process) const
   return { rows_[at], rows_[at + 1] };
 }
 
-/// Ranges that hold what all processes together see in each tile.
-std::vector<DepthRange> SharedSilhouettes::shareRanges(
-  const std::vector<TracedLayer>& own, const ProcessGroup& group)
+std::size_t SharedSilhouettes::tiles() const
 {
-  const Words words = own.empty() ? Words() : wordsOf(TracedDepth(own).ranges());
-  bytes_.ranges = WordBytes * words.size() * static_cast<std::size_t>(group.size() - 1);
-  return boundsOf(group.gather(words), static_cast<std::size_t>(columns()) * rows());
+  return static_cast<std::size_t>(columns()) * rows();
+}
+
+Words SharedSilhouettes::shareRanges(
+  const std::vector<DepthRange>& ranges, const ProcessGroup& group)
+{
+  const Words words = wordsOf(ranges);
+  bytes_.ranges += WordBytes * words.size() * static_cast<std::size_t>(group.size() - 1);
+  return group.gather(words);
 }
 
 /// Tiles that may have lines: the same for all processes.
@@ -257,23 +290,24 @@ std::vector<int> SharedSilhouettes::searchedTiles(
   return numbers;
 }
 
-/// Each process gets what all see in its rows and in one more on each side, which edges look at.
-Words SharedSilhouettes::exchangeTiles(const std::vector<TracedLayer>& own,
-  const std::vector<DepthRange>& ranges, const std::vector<int>& searched,
+/// Divides the rows of tiles, by those that are wanted. Each process gets what all see in its rows
+/// and in one more on each side, which edges look at.
+void SharedSilhouettes::exchangeTiles(DividedDepth& depth, std::vector<DepthRange> ranges,
+  const std::vector<int>& wanted, const std::vector<std::uint8_t>& needed,
   const ProcessGroup& group)
 {
-  const std::vector<std::uint8_t> needed = tilesAround(searched, columns(), rows());
+  rows_ = divideRows(wanted, columns(), rows(), group.size());
   Words arrived;
   for (int process = 0; process < group.size(); ++process)
   {
     const auto [first, end] = rowsOf(process);
-    if (first == end || searched.empty())
+    if (first == end || wanted.empty())
     {
       continue; // all know that nothing is needed there
     }
     const int begin = std::max(0, first - 1) * columns();
-    const Words words =
-      tilesOf(own, group.rank(), needed, ranges, begin, std::min(rows(), end + 1) * columns());
+    Words words;
+    depth.appendOwn(tilesIn(needed, begin, std::min(rows(), end + 1) * columns()), ranges, words);
     Words all = group.gatherAt(process, words);
     if (process == group.rank())
     {
@@ -284,6 +318,8 @@ Words SharedSilhouettes::exchangeTiles(const std::vector<TracedLayer>& own,
       bytes_.depths += WordBytes * words.size();
     }
   }
-  return arrived;
+  const auto [first, end] = rowsOf(group.rank());
+  keepRows({ first - 1, end + 1 }, columns(), ranges); // others are not looked at here
+  depth.assemble(arrived, std::move(ranges));
 }
 }

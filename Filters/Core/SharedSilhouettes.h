@@ -2,6 +2,7 @@
 #ifndef po_SharedSilhouettes_h
 #define po_SharedSilhouettes_h
 
+#include "DividedDepth.h"
 #include "SharedDepth.h"
 #include "SharedLines.h"
 #include "SilhouetteRule.h"
@@ -23,12 +24,12 @@ struct SharedBytes
   [[nodiscard]] std::size_t all() const { return ranges + depths + lines; }
 };
 
-/// The silhouettes of spheres that are divided over processes in any way: those that one process
-/// with all spheres would find, strengths rounded to 1/16383.
+/// The silhouettes of what is divided over processes in any way: those that one process with all of
+/// it would find, strengths rounded to 1/16383.
 ///
-/// Each process has traced its own spheres, in the same view. All tell the depth range of each
-/// tile; a tile that can have no edge, or whose spheres another process hides for certain, needs
-/// nothing more. The rows of the other tiles are divided over the processes, each of which gets
+/// Each process has the depths of its own part, in the same view. All tell the depth range of each
+/// tile; a tile that can have no edge, or what another process hides for certain, needs nothing
+/// more. The rows of the other tiles are divided over the processes, each of which gets
 /// what all see there, finds the lines in what is nearest, and hands them on. So what travels is
 /// sparse, each process has its share of the work, and none needs all depths.
 ///
@@ -42,6 +43,13 @@ public:
   /// @param placed with window depths
   void find(const std::vector<TracedLayer>& own, const Camera& camera, const SilhouetteRule& rule,
     const ProcessGroup& group, int destination, bool placed);
+
+  /// The same of any depths.
+  void find(DividedDepth& depth, const SilhouetteRule& rule, const ProcessGroup& group,
+    int destination, bool placed);
+
+  /// How far the visible depths of all processes spread: see depthSpread(). All must call it.
+  [[nodiscard]] double depthSpread(DividedDepth& depth, const ProcessGroup& group);
 
   /// Gives each line the colour in front of it, which one process has. All must call it, and all
   /// must have the lines.
@@ -65,12 +73,12 @@ private:
   [[nodiscard]] int columns() const;
   [[nodiscard]] int rows() const;
   [[nodiscard]] std::pair<int, int> rowsOf(int process) const;
-  std::vector<DepthRange> shareRanges(
-    const std::vector<TracedLayer>& own, const ProcessGroup& group);
+  ProcessGroup::Words shareRanges(const std::vector<DepthRange>& ranges, const ProcessGroup& group);
+  [[nodiscard]] std::size_t tiles() const;
   [[nodiscard]] std::vector<int> searchedTiles(
     const std::vector<DepthRange>& ranges, const SilhouetteRule& rule) const;
-  ProcessGroup::Words exchangeTiles(const std::vector<TracedLayer>& own,
-    const std::vector<DepthRange>& ranges, const std::vector<int>& searched,
+  void exchangeTiles(DividedDepth& depth, std::vector<DepthRange> ranges,
+    const std::vector<int>& wanted, const std::vector<std::uint8_t>& needed,
     const ProcessGroup& group);
 
   int width_ = 0, height_ = 0;

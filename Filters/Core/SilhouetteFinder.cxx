@@ -228,10 +228,11 @@ private:
   void setFront(int i, int j, const PixelLine& line)
   {
     const auto at = static_cast<std::size_t>(TileLines::indexOf(i, j));
-    lines_.front[at] =
-      pixelOf(line.front % finder_.block().stride(), line.front / finder_.block().stride());
+    const int frontI = line.front % finder_.block().stride();
+    const int frontJ = line.front / finder_.block().stride();
     if (rule_.samples == 1)
     {
+      lines_.front[at] = pixelOf(frontI, frontJ);
       return;
     }
     lines_.inside[at] = 0;
@@ -242,12 +243,12 @@ private:
       return;
     }
     const int front = pixelThatShows(i, j, behind);
+    lines_.front[at] = front >= 0 ? front : pixelAbout(frontI, frontJ, behind);
     if (front >= 0)
     {
       float uncovered = 0;
       forEachSample(i, j, 0, rule_.samples,
         [&](std::size_t sample) { uncovered += isFront(sample, behind) ? 1.0F : 0.0F; });
-      lines_.front[at] = front;
       lines_.inside[at] = uncovered * line.strength /
         (line.covered * static_cast<float>(rule_.samples * rule_.samples));
     }
@@ -258,9 +259,14 @@ private:
     return cover_[at] == InfinityF && finder_.block().depth[at] <= behind;
   }
 
-  /// Are all four samples about the centre of a pixel in front?
+  /// Are all four samples about the centre of a pixel in front? Of those that are known.
   [[nodiscard]] bool showsFront(int i, int j, float behind) const
   {
+    const SampleBlock& block = finder_.block();
+    if (std::min(i, j) < -margin_ || i + margin_ >= block.columns || j + margin_ >= block.rows)
+    {
+      return false;
+    }
     bool all = true;
     const int middle = rule_.samples / 2;
     forEachSample(
@@ -280,6 +286,14 @@ private:
       }
     }
     return -1;
+  }
+
+  /// The pixel of a front sample, or one around it that shows what is in front if that does not.
+  [[nodiscard]] int pixelAbout(int sampleI, int sampleJ, float behind) const
+  {
+    const int i = sampleI / rule_.samples - margin_, j = sampleJ / rule_.samples - margin_;
+    const int shown = showsFront(i, j, behind) ? -1 : pixelThatShows(i, j, behind);
+    return shown >= 0 ? shown : pixelOf(sampleI, sampleJ);
   }
 
   /// Pixel of the picture at pixel (i, j) of the tile.

@@ -12,34 +12,11 @@
 #include "vtkRenderer.h"
 
 #include <algorithm>
-#include <functional>
 #include <new>
 #include <stdexcept>
 
 namespace po
 {
-namespace
-{
-/// What went wrong, the same on all processes.
-std::string runForLines(const ProcessGroup& group, const std::function<void()>& work)
-{
-  std::string error;
-  const auto run = [&]
-  {
-    try
-    {
-      work();
-    }
-    catch (const std::bad_alloc&)
-    {
-      throw std::runtime_error("Memory ran out for lines of several processes.");
-    }
-  };
-  static_cast<void>(runTogether(group, run, error));
-  return error;
-}
-}
-
 OwnFrames framesOf(const std::vector<vtkProp*>& props, vtkRenderer* renderer, int width, int height)
 {
   OwnFrames own{ {}, cameraOf(renderer, width, height), true };
@@ -95,6 +72,36 @@ std::optional<SilhouetteScale> agreedScale(const SilhouetteOffer& own, const Pro
     scale.freeLength = std::max(scale.freeLength, doubleOf(all[at + 4]));
   }
   return agreed ? std::optional(scale) : std::nullopt;
+}
+
+bool isSoForAll(bool own, const ProcessGroup& group)
+{
+  try
+  {
+    return !group.any(!own);
+  }
+  catch (const WorkStopped&)
+  {
+    return false; // for all of them
+  }
+}
+
+std::string runForLines(const ProcessGroup& group, const std::function<void()>& work)
+{
+  std::string error;
+  const auto run = [&]
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::bad_alloc&)
+    {
+      throw std::runtime_error("Memory ran out for lines of several processes.");
+    }
+  };
+  static_cast<void>(runTogether(group, run, error));
+  return error;
 }
 
 std::string findTogether(const OwnFrames& own, const SilhouetteRule& rule,

@@ -6,6 +6,7 @@
 #include "SharedSilhouettes.h"
 #include "TracedLayers.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,13 @@ struct SilhouetteOffer
 /// and all get the same.
 [[nodiscard]] std::optional<SilhouetteScale> agreedScale(
   const SilhouetteOffer& own, const ProcessGroup& group);
+
+/// Is it so for all processes? All must call it, and all get the same.
+[[nodiscard]] bool isSoForAll(bool own, const ProcessGroup& group);
+
+/// Does what the processes do together for lines.
+/// @return what went wrong, the same on all processes; empty if nothing did
+[[nodiscard]] std::string runForLines(const ProcessGroup& group, const std::function<void()>& work);
 
 /// Finds the lines at the process `destination`, or at all if it is negative.
 /// @param placed with window depths

@@ -43,36 +43,33 @@ vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state)
 {
   return vtkOpenGLRenderWindow::SafeDownCast(state->GetRenderer()->GetRenderWindow());
 }
-}
 
-namespace
+std::optional<WindowToEye> windowToEyeOf(vtkRenderer* renderer)
 {
-/// The projection that the mappers draw with; nothing if it is singular.
-std::optional<po::WindowToEye> windowToEyeOf(vtkRenderer* renderer)
-{
-  return po::windowToEyeOf(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
+  return windowToEyeOf(renderer->GetActiveCamera()->GetProjectionTransformMatrix(
     renderer->GetTiledAspectRatio(), -1.0, 1.0));
 }
 
-/// Not with an empty viewport or a degenerate camera.
-bool canBeSeen(const vtkRenderState* state)
-{
-  const po::SilhouetteViewport viewport = po::viewportOf(state);
-  return viewport.width > 0 && viewport.height > 0 && windowToEyeOf(state->GetRenderer());
-}
-
-/// Side of the largest frame that is drawn for samples within pixels; every OpenGL 3.2 draws it.
-constexpr int LargestFrame = 8192;
-
-/// The largest number of samples up to `wanted` with which a frame can be drawn.
 int samplesThatFit(int wanted, int width, int height)
 {
+  // Side of the largest frame that every OpenGL 3.2 draws.
+  constexpr int LargestFrame = 8192;
   int samples = wanted;
   while (samples > 1 && samples * std::max(width, height) > LargestFrame)
   {
     samples /= 2;
   }
   return samples;
+}
+}
+
+namespace
+{
+/// Not with an empty viewport or a degenerate camera.
+bool canBeSeen(const vtkRenderState* state)
+{
+  const po::SilhouetteViewport viewport = po::viewportOf(state);
+  return viewport.width > 0 && viewport.height > 0 && po::windowToEyeOf(state->GetRenderer());
 }
 
 /// A picture with its border repeated `margin` pixels beyond it.
@@ -193,7 +190,7 @@ std::string vtkDepthSilhouettePass::Prepare(const vtkRenderState* state)
   {
     return this->FindInTracedFrames(state, 0);
   }
-  const int samples = samplesThatFit(this->Samples, viewport.width, viewport.height);
+  const int samples = po::samplesThatFit(this->Samples, viewport.width, viewport.height);
   return samples > 1 && this->TileMargins ? this->FindAround(state)
                                           : this->FindInZBuffer(state, 1, 0);
 }
@@ -224,7 +221,7 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
   {
     return error;
   }
-  po::eyeDistances(*windowToEyeOf(state->GetRenderer()), self.ZBuffer, viewport.width,
+  po::eyeDistances(*po::windowToEyeOf(state->GetRenderer()), self.ZBuffer, viewport.width,
     viewport.height, self.Distances);
   const po::ImageDepth<float> depth(
     po::DepthImage<float>{ self.Distances.data(), viewport.width, viewport.height }, samples);
@@ -233,7 +230,7 @@ std::string vtkDepthSilhouettePass::FindInZBuffer(
   const auto ofSpheres = po::scaleOf(po::visibleActorsOf(po::propsOf(state)));
   if (this->ThresholdUnit != 0 && !ofSpheres)
   {
-    return "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
+    return po::NoSpheresForRadii;
   }
   const po::SilhouetteScale& scale =
     self.scale(ofSpheres ? *ofSpheres : po::SilhouetteScale{ 0, po::depthSpread(depth) },
@@ -264,7 +261,7 @@ std::string vtkDepthSilhouettePass::FindAround(const vtkRenderState* state)
     props.assign(self.Actors.begin(), self.Actors.end());
   }
   const bool spheres = po::hasOnlySpheres(props);
-  const int samples = spheres ? 1 : samplesThatFit(this->Samples, width, height);
+  const int samples = spheres ? 1 : po::samplesThatFit(this->Samples, width, height);
   return this->DrawAside(state, props, samples, margin,
     [&](const vtkRenderState* inside)
     {
@@ -340,6 +337,7 @@ void vtkDepthSilhouettePass::PrintSelf(ostream& os, vtkIndent indent)
   po::print(os, indent, po::silhouetteParametersOf(*this));
   os << indent << "LineVisibility: " << this->LineVisibility << "\n";
   os << indent << "Controller: " << this->Internal->Controller << "\n";
+  os << indent << "OrderedCompositing: " << this->OrderedCompositing << "\n";
   os << indent << "SharedBytes: " << this->SharedBytes << "\n";
   os << indent << "TileMargins: " << this->TileMargins << "\n";
   os << indent << "Color: " << this->Color[0] << ", " << this->Color[1] << ", " << this->Color[2]

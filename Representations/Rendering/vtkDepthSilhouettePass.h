@@ -59,10 +59,10 @@ class vtkProp;
 
 namespace po
 {
-struct OwnFrames;
 struct SilhouetteImage;
-struct SilhouetteOffer;
+struct SilhouetteScale;
 struct SilhouetteSurroundings;
+struct ZBuffer;
 }
 
 class PARTICLEOCCLUSIONRENDERING_EXPORT vtkDepthSilhouettePass : public vtkImageProcessingPass
@@ -101,12 +101,19 @@ public:
   /// The processes whose pictures the delegate composites at the first of them, each with a part of
   /// the scene. All of them must render together. Default: none, the process is alone.
   ///
-  /// Where all that is opaque, or all that is chosen by AddActor(), are ray-traced spheres, lines
-  /// are those of one process that has all spheres, antialiased as there. Otherwise, and while
-  /// frames are coarser than the picture to be in time, they are lines of whole pixels from the
-  /// composited z-buffer; of chosen actors there are none then.
+  /// Lines are those of one process that has all of it, antialiased as there: around ray-traced
+  /// spheres from their frames, beside anything else from the z-buffers of all processes. Only
+  /// frames of spheres that are coarser than the picture, to be in time, have lines of whole
+  /// pixels, as with one process.
   void SetController(vtkMultiProcessController* controller);
   vtkMultiProcessController* GetController();
+  ///@}
+
+  ///@{
+  /// Pictures of processes are put one over the other and leave no depth. Default: off.
+  vtkSetMacro(OrderedCompositing, bool);
+  vtkGetMacro(OrderedCompositing, bool);
+  vtkBooleanMacro(OrderedCompositing, bool);
   ///@}
 
   /// Bytes that this process has handed to others for the lines of the last picture.
@@ -120,6 +127,7 @@ protected:
   ~vtkDepthSilhouettePass() override;
 
   bool TileMargins = true;
+  bool OrderedCompositing = false;
   vtkIdType SharedBytes = 0;
 
 private:
@@ -133,7 +141,10 @@ private:
   std::string RenderShared(const vtkRenderState* state, bool lines);
   bool FindTogether(const vtkRenderState* state, bool lines, std::string& error);
   bool FindInFrames(
-    const po::OwnFrames& own, const po::SilhouetteOffer& offer, bool whole, std::string& error);
+    const vtkRenderState* state, const std::vector<vtkProp*>& props, std::string& error);
+  bool FindInZBuffers(const vtkRenderState* state, const std::vector<vtkProp*>& props, int samples,
+    std::string& error);
+  void FindInZBuffer(const po::ZBuffer& own, po::SilhouetteScale scale);
   std::string DrawAside(const vtkRenderState* state, const std::vector<vtkProp*>& props,
     int samples, int margin, const std::function<std::string(const vtkRenderState*)>& use);
   std::string Prepare(const vtkRenderState* state);

@@ -2,6 +2,7 @@
 #ifndef vtkDepthSilhouettePassInternals_h
 #define vtkDepthSilhouettePassInternals_h
 
+#include "EyeDistance.h"
 #include "SharedSilhouettes.h"
 #include "SilhouettePainter.h"
 #include "vtkDepthSilhouettePass.h"
@@ -15,6 +16,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace po
@@ -23,6 +25,16 @@ namespace po
 [[nodiscard]] SilhouetteViewport viewportOf(const vtkRenderState* state);
 
 [[nodiscard]] vtkOpenGLRenderWindow* windowOf(const vtkRenderState* state);
+
+/// The projection that the mappers draw with; nothing if it is singular.
+[[nodiscard]] std::optional<WindowToEye> windowToEyeOf(vtkRenderer* renderer);
+
+/// A parameter asks for what is not there.
+inline constexpr const char* NoSpheresForRadii =
+  "ThresholdUnit asks for particle radii, but no ray-traced spheres are visible.";
+
+/// The largest number of samples up to `wanted` with which a frame of so many pixels can be drawn.
+[[nodiscard]] int samplesThatFit(int wanted, int width, int height);
 }
 
 /// What a pass keeps from one picture to the next.

@@ -10,21 +10,10 @@
 #include "vtkPVSynchronizedRenderer.h"
 #include "vtkRayTracedSphereRepresentation.h"
 
-#include <algorithm>
-
 vtkStandardNewMacro(vtkPVRenderViewWithSilhouettes);
 
 namespace
 {
-bool isOfSpheres(vtkDataRepresentation* representation)
-{
-  if (auto* composite = vtkCompositeRepresentation::SafeDownCast(representation))
-  {
-    representation = composite->GetActiveRepresentation();
-  }
-  return vtkRayTracedSphereRepresentation::SafeDownCast(representation);
-}
-
 /// What a representation draws; null for one that draws no surface.
 vtkActor* actorOf(vtkDataRepresentation* representation)
 {
@@ -44,7 +33,6 @@ vtkActor* actorOf(vtkDataRepresentation* representation)
 vtkPVRenderViewWithSilhouettes::vtkPVRenderViewWithSilhouettes()
 {
   this->SynchronizedRenderers->SetImageProcessingPass(this->Silhouettes);
-  // Compositing must deliver depth as well as colour.
   this->SynchronizedRenderers->SetUseDepthBuffer(true);
   // Composited images have the renderer's size, whatever the frame they are put into.
   vtkMultiProcessController* processes = vtkMultiProcessController::GetGlobalController();
@@ -85,33 +73,39 @@ bool vtkPVRenderViewWithSilhouettes::ChooseActors()
   return found;
 }
 
-/// Where several processes draw, only ray-traced spheres can be chosen, and a wall of displays
-/// shows what each process has composited.
+/// A wall of displays shows what each process has composited of everything.
 void vtkPVRenderViewWithSilhouettes::CheckSharing()
 {
-  if (!this->Silhouettes->GetController())
+  const bool alone = this->Silhouettes->GetTileMargins();
+  if (alone || !(this->InTileDisplayMode() || this->InCaveDisplayMode()))
   {
     return;
   }
-  if (this->InTileDisplayMode() || this->InCaveDisplayMode())
+  this->Silhouettes->SetController(nullptr);
+  if (!this->Chosen.empty())
   {
-    this->Silhouettes->SetController(nullptr);
+    this->Chosen.clear();
+    vtkWarningMacro("SilhouetteRepresentations: on a wall of displays lines cannot be limited to "
+                    "some representations. All have lines.");
   }
-  const bool spheres = this->Silhouettes->GetController();
-  const auto cannot = std::remove_if(this->Chosen.begin(), this->Chosen.end(),
-    [spheres](vtkDataRepresentation* one) { return one && !(spheres && isOfSpheres(one)); });
-  if (cannot != this->Chosen.end())
+}
+
+/// Compositing delivers depth as well as colour, but where something is translucent and pictures
+/// are laid one over the other.
+void vtkPVRenderViewWithSilhouettes::PrepareCompositing()
+{
+  const bool ordered = this->GetUseOrderedCompositing();
+  if (ordered != this->Silhouettes->GetOrderedCompositing())
   {
-    this->Chosen.erase(cannot, this->Chosen.end());
-    vtkWarningMacro(
-      "SilhouetteRepresentations: where several processes draw, lines can be limited to "
-      "ray-traced spheres only, and not on a wall of displays. The others were left out.");
+    this->Silhouettes->SetOrderedCompositing(ordered);
+    this->SynchronizedRenderers->SetUseDepthBuffer(!ordered);
   }
 }
 
 void vtkPVRenderViewWithSilhouettes::Render(bool interactive, bool skipRendering)
 {
   this->CheckSharing();
+  this->PrepareCompositing();
   const bool visible = this->Silhouettes->GetLineVisibility();
   this->Silhouettes->SetLineVisibility(this->ChooseActors() && visible);
   this->Superclass::Render(interactive, skipRendering);

@@ -35,8 +35,7 @@ public:
   ///@{
   /// Representations that alone have lines, as far as they are visible, translucent ones too:
   /// surfaces, points and the like, and ray-traced spheres. Default: none, all that is opaque has
-  /// lines. Where several processes draw, only ray-traced spheres can be chosen; others are left
-  /// out, which is reported.
+  /// lines. On a wall of displays they cannot be limited, which is reported.
   void AddSilhouetteRepresentation(vtkDataRepresentation* representation);
   void RemoveAllSilhouetteRepresentations();
   ///@}
@@ -52,6 +51,7 @@ private:
   void operator=(const vtkPVRenderViewWithSilhouettes&) = delete;
 
   void CheckSharing();
+  void PrepareCompositing();
   bool ChooseActors();
 
   vtkNew<vtkDepthSilhouettePass> Silhouettes;

@@ -209,3 +209,30 @@ TEST(DepthSpread, IgnoresBackgroundAndFarOutliers)
   const po::ImageDepth<double> source(po::DepthImage<double>{ depth.data(), 320, 320 }, 1);
   EXPECT_NEAR(po::depthSpread(source), 150, 25);
 }
+
+/// Darkened lines take the colour of that pixel, far from the front too. The pixel that the edge of
+/// the front cuts, column 10, shows what is behind at its centre.
+TEST(Silhouettes, PixelInFrontOfALineShowsWhatIsInFront)
+{
+  constexpr int Samples = 4;
+  const auto depth =
+    makeDepth([](double i, double) { return i < 10.3 ? 10 : 100; }, Width, Height, Samples);
+  po::SilhouetteParameters parameters;
+  parameters.samples = Samples;
+  parameters.threshold = 30;
+  parameters.width = 5;
+  const po::ImageDepth<double> source(
+    po::DepthImage<double>{ depth.data(), Width * Samples, Height * Samples }, Samples);
+  po::SilhouetteImage image;
+  po::findSilhouettes(source, po::resolve(parameters, {}), image, { true, true });
+  std::size_t count = 0;
+  for (std::size_t pixel = 0; pixel < image.strength.size(); ++pixel)
+  {
+    if (image.strength[pixel] > 0)
+    {
+      ++count;
+      EXPECT_EQ(image.front[pixel] % Width, 9) << pixel;
+    }
+  }
+  EXPECT_EQ(count, 6U * Height);
+}
