@@ -91,10 +91,9 @@ struct ReadRims
     at += sizeof(crossed);
   }
 
-  const TexelRims& finish(bool apart)
+  const TexelRims& finish()
   {
-    result = { apart ? outside.data() : nullptr, rims.data(), rims.size(), capOf.data(),
-      caps.data() };
+    result = { outside.data(), rims.data(), rims.size(), capOf.data(), caps.data() };
     return result;
   }
 };
@@ -117,7 +116,7 @@ const std::uint8_t* takeOutside(
 
 /// Reads all rims, or those that cross what is left of a mask.
 /// @param mask null: all
-void takeApart(const std::uint8_t* at, const SphereSet& set, unsigned source, const GroupMask* mask,
+void takeRims(const std::uint8_t* at, const SphereSet& set, unsigned source, const GroupMask* mask,
   ReadRims& read)
 {
   read.takeOthers(at, source);
@@ -143,15 +142,21 @@ void takeApart(const std::uint8_t* at, const SphereSet& set, unsigned source, co
   }
 }
 
-/// Caps of texels that are not told apart: one entry with all of them.
-void takeList(const std::uint8_t* at, const SphereSet& set, unsigned source, ReadRims& read)
+void appendRims(const TexelRims& rims, Bytes& bytes)
 {
-  read.takeOthers(at, source);
-  for (std::uint32_t place = 0; place < read.others.size(); ++place)
+  appendNumber(static_cast<std::uint32_t>(rims.count), bytes);
+  std::uint32_t group = 0;
+  for (std::size_t rim = 0; rim < rims.count; ++rim)
   {
-    read.addCap(place, set, source);
+    const RimGroup& entry = rims.rims[rim];
+    appendNumber(entry.group - group, bytes);
+    group = entry.group;
+    const auto* crossed = reinterpret_cast<const std::uint8_t*>(&entry.crossed);
+    bytes.insert(bytes.end(), crossed, crossed + sizeof(entry.crossed));
+    const CapList caps = rims.capsOf(rim);
+    appendNumber(static_cast<std::uint32_t>(caps.last - caps.first), bytes);
+    std::for_each(caps.first, caps.last, [&bytes](std::uint32_t cap) { appendNumber(cap, bytes); });
   }
-  read.rims.push_back({ 0, AllOfGroup, static_cast<std::uint32_t>(read.capOf.size()) });
 }
 }
 
@@ -165,8 +170,7 @@ CompactRims::CompactRims(const SphereSet& set, const SweepTexels& texels, std::s
 
 const std::uint8_t* CompactRims::bytesOf(Code code) const
 {
-  const Code place = code & ~Apart;
-  return chunks_[place >> ChunkShift].get() + Unit * (place & ((Code(1) << ChunkShift) - 1));
+  return chunks_[code >> ChunkShift].get() + Unit * (code & ((Code(1) << ChunkShift) - 1));
 }
 
 CompactRims::Code CompactRims::addChunk(std::size_t bytes)
@@ -206,30 +210,10 @@ CompactRims::Code CompactRims::store(const Bytes& bytes)
   return code;
 }
 
-void CompactRims::list(unsigned sphere, unsigned source, const std::vector<BuriedCap>& caps)
+void CompactRims::keep(unsigned sphere, unsigned source, const std::vector<BuriedCap>& caps)
 {
-  thread_local Bytes bytes;
-  bytes.clear();
-  appendNumber(static_cast<std::uint32_t>(caps.size()), bytes);
-  for (const BuriedCap& cap : caps)
-  {
-    appendNumber(differenceOf(cap.other, source), bytes);
-  }
-  // Two threads may do the same at once; both are equal, and one is not used.
-  Code known = None;
-  codes_[sphere].compare_exchange_strong(known, store(bytes), std::memory_order_acq_rel);
-}
-
-void CompactRims::tellApart(unsigned sphere, unsigned source)
-{
-  if (!isListed(sphere) || isToldApart(sphere))
-  {
-    return;
-  }
-  ReadRims& read = readRims();
-  takeList(bytesOf(codeOf(sphere)), set_, source, read);
   thread_local RimFinder finder;
-  const TexelRims rims = finder.find(texels_, read.finish(false));
+  const TexelRims rims = finder.find(texels_, caps);
   thread_local MaskWords words;
   words.clear();
   appendMask(texels_.groups(), texels_.allBits().data(), rims.outside, words);
@@ -239,22 +223,12 @@ void CompactRims::tellApart(unsigned sphere, unsigned source)
   appendNumber(static_cast<std::uint32_t>(finder.capsUsed().size()), bytes);
   for (const std::uint32_t cap : finder.capsUsed())
   {
-    appendNumber(differenceOf(read.others[cap], source), bytes);
+    appendNumber(differenceOf(caps[cap].other, source), bytes);
   }
-  appendNumber(static_cast<std::uint32_t>(rims.count), bytes);
-  std::uint32_t group = 0;
-  for (std::size_t rim = 0; rim < rims.count; ++rim)
-  {
-    const RimGroup& entry = rims.rims[rim];
-    appendNumber(entry.group - group, bytes);
-    group = entry.group;
-    const auto* crossed = reinterpret_cast<const std::uint8_t*>(&entry.crossed);
-    bytes.insert(bytes.end(), crossed, crossed + sizeof(entry.crossed));
-    const CapList caps = rims.capsOf(rim);
-    appendNumber(static_cast<std::uint32_t>(caps.last - caps.first), bytes);
-    std::for_each(caps.first, caps.last, [](std::uint32_t cap) { appendNumber(cap, bytes); });
-  }
-  codes_[sphere].store(store(bytes) | Apart, std::memory_order_release);
+  appendRims(rims, bytes);
+  // Two threads may do the same at once; both are equal, and one is not used.
+  Code known = None;
+  codes_[sphere].compare_exchange_strong(known, store(bytes), std::memory_order_acq_rel);
 }
 
 void CompactRims::prefetch(unsigned sphere) const
@@ -278,17 +252,8 @@ bool CompactRims::clearCovered(unsigned sphere, GroupMask* mask) const
 const TexelRims& CompactRims::read(Code code, unsigned source, const GroupMask* mask) const
 {
   ReadRims& read = readRims();
-  const bool apart = (code & Apart) != 0;
-  if (apart)
-  {
-    const std::uint8_t* at = takeOutside(bytesOf(code), texels_, read.outside);
-    takeApart(at, set_, source, mask, read);
-  }
-  else
-  {
-    takeList(bytesOf(code), set_, source, read);
-  }
-  return read.finish(apart);
+  takeRims(takeOutside(bytesOf(code), texels_, read.outside), set_, source, mask, read);
+  return read.finish();
 }
 
 bool CompactRims::clearInside(unsigned sphere, unsigned source, const TexelPatterns& patterns,

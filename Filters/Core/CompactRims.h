@@ -31,15 +31,11 @@ public:
   /// @param spheres how many may be listed. All must outlive this.
   CompactRims(const SphereSet& set, const SweepTexels& texels, std::size_t spheres);
 
-  /// Keeps the caps of a sphere, unless there are some.
+  /// Keeps what the caps of a sphere cut, unless that was done.
   /// @param source its number in the set
-  void list(unsigned sphere, unsigned source, const std::vector<BuriedCap>& caps);
+  void keep(unsigned sphere, unsigned source, const std::vector<BuriedCap>& caps);
 
   [[nodiscard]] bool isListed(unsigned sphere) const { return codeOf(sphere) != None; }
-  [[nodiscard]] bool isToldApart(unsigned sphere) const { return (codeOf(sphere) & Apart) != 0; }
-
-  /// Tells the texels of a listed sphere apart, if that was not done.
-  void tellApart(unsigned sphere, unsigned source);
 
   /// Fetches, while other work goes on, what prefetch() needs.
   void prefetchPlace(unsigned sphere) const { hwy::Prefetch(&codes_[sphere]); }
@@ -47,8 +43,7 @@ public:
   /// Fetches what is kept of a sphere while other work goes on.
   void prefetch(unsigned sphere) const;
 
-  /// Clears the bits of texels that are wholly inside, of a sphere whose texels are told apart;
-  /// false if none is left.
+  /// Clears the bits of texels that are wholly inside, of a listed sphere; false if none is left.
   bool clearCovered(unsigned sphere, GroupMask* mask) const;
 
   /// The same as clearInside() of TexelCaps.h, of a listed sphere.
@@ -60,13 +55,11 @@ public:
   [[nodiscard]] const TexelRims* find(unsigned sphere, unsigned source) const;
 
 private:
-  /// Where the bytes of a sphere begin: the chunk, and how many times four bytes from its start;
-  /// and whether texels are told apart.
+  /// Where the bytes of a sphere begin: the chunk, and how many times four bytes from its start.
   using Code = std::uint32_t;
   static constexpr Code None = 0; ///< there is no chunk 0
-  static constexpr Code Apart = Code(1) << 31;
   static constexpr unsigned ChunkShift = 16;
-  static constexpr Code MostChunks = (Apart >> ChunkShift);
+  static constexpr Code MostChunks = Code(1) << 15;
   static constexpr std::size_t Unit = 4;
   static constexpr std::size_t ChunkBytes = Unit << ChunkShift;
 

@@ -24,7 +24,7 @@ public:
   }
 
   /// Those of the next particle of the list.
-  /// @param rims told apart; null: none
+  /// @param rims null: none
   void append(const TexelRims* rims);
 
   /// Reads a part of the list, of which all was appended.
@@ -33,7 +33,7 @@ public:
   /// Of a place in that part: null where there are none. Good until another part is loaded.
   [[nodiscard]] const TexelRims* find(std::size_t place) const
   {
-    return rims_[place].areToldApart() ? &rims_[place] : nullptr;
+    return rims_[place].outside != nullptr ? &rims_[place] : nullptr;
   }
 
 private:

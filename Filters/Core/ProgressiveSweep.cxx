@@ -50,20 +50,75 @@ LoggedVisibility::Watch watchOfLog(ProgressiveSweep::Watch watch)
                                                : LoggedVisibility::Watch::Some;
 }
 
-/// Replaces textures of `count` places of the list from `first` on.
-void replace(const TextureReplacements& by, std::size_t first, std::size_t count,
-  std::vector<float>& values, std::vector<float>& shares)
+/// Textures of places of the list that follow each other. Those of spheres that were never seen are
+/// all the same: where the place before held one it stays.
+class TextureChunk
 {
-  const std::size_t texels = values.size() / count;
-  const auto begin = std::lower_bound(by.places.begin(), by.places.end(), first);
-  for (auto place = begin; place != by.places.end() && *place < first + count; ++place)
+public:
+  TextureChunk(const SweepTextures& made, std::size_t texels)
+    : made_(made)
+    , texels_(texels)
   {
-    const std::size_t from = static_cast<std::size_t>(place - by.places.begin()) * texels;
-    const std::size_t to = (*place - first) * texels;
-    std::copy_n(by.values.data() + from, texels, values.data() + to);
-    std::copy_n(by.shares.data() + from, texels, shares.data() + to);
   }
-}
+
+  void resize(std::size_t count)
+  {
+    values_.resize(count * texels_);
+    shares_.resize(count * texels_);
+    isDark_.resize(count, 0);
+  }
+
+  void fill(std::size_t i, unsigned sphere)
+  {
+    const bool dark = made_.isDark(sphere);
+    if (!dark || isDark_[i] == 0)
+    {
+      made_.fill(sphere, values_.data() + i * texels_, shares_.data() + i * texels_);
+    }
+    isDark_[i] = dark ? 1 : 0;
+  }
+
+  /// @param first place of the list
+  void replace(const TextureReplacements& by, std::size_t first)
+  {
+    const auto begin = std::lower_bound(by.places.begin(), by.places.end(), first);
+    for (auto place = begin; place != by.places.end() && *place < first + isDark_.size(); ++place)
+    {
+      const std::size_t from = static_cast<std::size_t>(place - by.places.begin()) * texels_;
+      const std::size_t to = *place - first;
+      std::copy_n(by.values.data() + from, texels_, values_.data() + to * texels_);
+      std::copy_n(by.shares.data() + from, texels_, shares_.data() + to * texels_);
+      isDark_[to] = 0;
+    }
+  }
+
+  /// Texels without any part outside others.
+  [[nodiscard]] std::uint64_t inside() const
+  {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < isDark_.size(); ++i)
+    {
+      const float* shares = shares_.data() + i * texels_;
+      count += isDark_[i] != 0
+        ? 0
+        : static_cast<std::uint64_t>(std::count(shares, shares + texels_, 0.0f));
+    }
+    return count;
+  }
+
+  /// @param first place of the list
+  [[nodiscard]] RawTextures raw(std::size_t first) const
+  {
+    return { first, isDark_.size(), values_.data(), shares_.data() };
+  }
+
+private:
+  const SweepTextures& made_;
+  std::size_t texels_; ///< T * T
+  std::vector<float> values_;
+  std::vector<float> shares_;
+  std::vector<std::uint8_t> isDark_; ///< flags
+};
 
 /// Flags, by index in the order, of the spheres outside the distance of any other. Where rounding
 /// might matter a sphere is not alone.
@@ -180,27 +235,26 @@ void ProgressiveSweep::handOut(const OcclusionEstimator::Sink& sink, Progress& p
   const std::size_t texels = side * side;
   const std::size_t chunk = std::max<std::size_t>(1, valuesPerChunk / texels);
   const SweepTextures made = textures();
-  std::vector<float> values;
-  std::vector<float> shares;
+  TextureChunk textures(made, texels);
   progress.begin(
     particles_.size(), "Textures of " + std::to_string(particles_.size()) + " particles");
   std::size_t count = 0;
   for (std::size_t first = 0; first < particles_.size() && !progress.aborted(); first += count)
   {
     count = std::min({ chunk, particles_.size() - first, records_.loadFor(first) });
-    values.resize(count * texels);
-    shares.resize(count * texels);
+    textures.resize(count);
     tbb::parallel_for(std::size_t(0), count,
       [&](std::size_t i)
       {
-        made.prefetch(order_.indexOf(particles_[first + std::min(i + 3, count - 1)]));
-        made.fill(order_.indexOf(particles_[first + i]), values.data() + i * texels,
-          shares.data() + i * texels);
+        const auto sphereAt = [&](std::size_t k)
+        { return order_.indexOf(particles_[first + std::min(k, count - 1)]); };
+        records_.prefetch(sphereAt(i + 8));
+        records_.prefetchResult(sphereAt(i + 3));
+        textures.fill(i, sphereAt(i));
       });
-    replace(replacements, first, count, values, shares);
-    counters.texelsInside +=
-      static_cast<std::uint64_t>(std::count(shares.begin(), shares.end(), 0.0f));
-    sink({ first, count, values.data(), shares.data() });
+    textures.replace(replacements, first);
+    counters.texelsInside += textures.inside();
+    sink(textures.raw(first));
     progress.advance(count);
   }
   const SweepCounters swept = sweep_.counters();

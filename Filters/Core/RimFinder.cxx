@@ -29,28 +29,11 @@ RimCap rimCapOf(const BuriedCap& cap)
 
 TexelRims RimFinder::find(const SweepTexels& texels, const std::vector<BuriedCap>& caps)
 {
-  return find(texels, list(caps));
-}
-
-TexelRims RimFinder::find(const SweepTexels& texels, const TexelRims& caps)
-{
-  all_.assign(caps.caps, caps.caps + caps.firstCap(1));
+  all_.resize(caps.size());
+  std::transform(caps.begin(), caps.end(), all_.begin(), rimCapOf);
   classify(texels);
   listByGroup();
   return { outside_.data(), rims_.data(), rims_.size(), capOf_.data(), caps_.data() };
-}
-
-TexelRims RimFinder::list(const std::vector<BuriedCap>& caps)
-{
-  caps_.clear();
-  capOf_.clear();
-  for (const BuriedCap& cap : caps)
-  {
-    capOf_.push_back(static_cast<std::uint32_t>(caps_.size()));
-    caps_.push_back(rimCapOf(cap));
-  }
-  rims_.assign(1, { 0, AllOfGroup, static_cast<std::uint32_t>(caps_.size()) });
-  return { nullptr, rims_.data(), 1, capOf_.data(), caps_.data() };
 }
 
 void RimFinder::classify(const SweepTexels& texels)
@@ -119,7 +102,7 @@ const TexelRims* copyTo(
   }
   // Side by side, in the order in which they are looked at.
   auto* copy = new (memory.allocate(sizeof(TexelRims), alignof(TexelRims))) TexelRims;
-  copy->outside = rims.areToldApart() ? copied(memory, rims.outside, groups) : nullptr;
+  copy->outside = copied(memory, rims.outside, groups);
   copy->rims = copied(memory, rims.rims, rims.count);
   copy->count = rims.count;
   copy->capOf = copied(memory, rims.capOf, places);

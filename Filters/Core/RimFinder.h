@@ -21,15 +21,9 @@ class RimFinder
 public:
   /// @return valid until the next call
   TexelRims find(const SweepTexels& texels, const std::vector<BuriedCap>& caps);
-  /// Tells texels apart.
-  TexelRims find(const SweepTexels& texels, const TexelRims& caps);
 
   /// Of the caps that find() was given, those that are among its result, by their places.
   [[nodiscard]] const std::vector<std::uint32_t>& capsUsed() const { return used_; }
-
-  /// The caps as they are: texels are not told apart.
-  /// @return valid until the next call
-  TexelRims list(const std::vector<BuriedCap>& caps);
 
 private:
   void classify(const SweepTexels& texels);

@@ -15,7 +15,7 @@ namespace po
 {
 /// What the directions of a sweep see of the listed particles, in memory (LoggedVisibility: out of
 /// core). Particles are named by their places in the list, where neighbours should follow each
-/// other: the masks of 16 of them lie side by side, since a direction meets them one soon after
+/// other: the masks of a few of them lie side by side, since a direction meets them one soon after
 /// another. Sums, the larger part, are only there for particles that were seen.
 ///
 /// Threads may call keep() for different particles or axes at once.
@@ -42,7 +42,7 @@ public:
   [[nodiscard]] const float* subsetSums(std::size_t place) const;
 
 private:
-  static constexpr std::size_t ChunkPlaces = 16;
+  static constexpr std::size_t ChunkPlaces = 4;
 
   /// Neighbours of which one was seen; their masks [AxesPerBlock][ChunkPlaces][groups] follow in
   /// memory, so that no pointer to them must be waited for. Masks and marks are kept by axis: two

@@ -5,8 +5,6 @@
 #include "MaskedSums.h"
 #include "TexelCaps.h"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -24,12 +22,12 @@ SweepTextures::SweepTextures(
 void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
 {
   const float* sums = records_.sums(sphere);
-  const TexelRims* rims = records_.rims(sphere);
   if (sums == nullptr)
   {
-    formula_.fill(0, records_.isBuried(sphere) ? 0.0f : 1.0f, values, shares);
+    formula_.fill(0, isDark(sphere) ? 1.0f : 0.0f, values, shares);
     return;
   }
+  const TexelRims* rims = records_.rims(sphere);
   if (rims == nullptr)
   {
     formula_.fill(formula_.whole(), sums, records_.openWeights().total.data(), values, shares);
@@ -43,20 +41,8 @@ void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
   smoothing_.apply(values, shares);
 }
 
-void SweepTextures::prefetch(unsigned sphere) const
+void SweepTextures::lookAt(const TexelRims& rims, CutSurface& cut) const
 {
-  constexpr std::size_t perLine = 16; // floats
-  const float* sums = records_.sums(sphere);
-  for (std::size_t slot = 0; sums != nullptr && slot < records_.texels().slots(); slot += perLine)
-  {
-    hwy::Prefetch(sums + slot);
-  }
-}
-
-void SweepTextures::lookAt(const TexelRims& known, CutSurface& cut) const
-{
-  // Not yet: one that was seen in the last block alone, or was not seen, but is watched.
-  const TexelRims rims = known.areToldApart() ? known : cut.finder.find(records_.texels(), known);
   cut.rims.assign(rims.count * GroupSize, 0.0f);
   formula_.cutWhole(rims.outside, cut.surface);
   for (std::size_t rim = 0; rim < rims.count; ++rim)
@@ -91,13 +77,18 @@ void SweepTextures::weigh(const TexelRims& rims, CutSurface& cut) const
   const std::vector<float>& open = records_.openWeights().total;
   cut.weights.assign(open.size(), 0.0f);
   addMasked(records_.texels().groups(), rims.outside, open.data(), cut.weights.data());
-  for (std::size_t i = 0; i < cut.rims.size(); ++i)
+  for (std::size_t rim = 0; rim < rims.count; ++rim)
   {
-    const std::size_t slot = rims.rims[i / GroupSize].group * GroupSize + i % GroupSize;
-    // A texel that no rim crosses: the same sum in another order. Keep the one that the sums are
-    // compared with, so that an open texel is exactly 1.
-    const bool whole = cut.rims[i] > open[slot] * (1 - 1e-4f);
-    cut.weights[slot] = whole ? open[slot] : cut.rims[i];
+    const float* sums = cut.rims.data() + rim * GroupSize;
+    const float* most = open.data() + rims.rims[rim].group * GroupSize;
+    float* weights = cut.weights.data() + rims.rims[rim].group * GroupSize;
+    for (std::size_t i = 0; i < GroupSize; ++i)
+    {
+      // A texel that no rim crosses: the same sum in another order. Keep the one that the sums are
+      // compared with, so that an open texel is exactly 1.
+      const bool whole = sums[i] > most[i] * (1 - 1e-4f);
+      weights[i] = whole ? most[i] : sums[i];
+    }
   }
 }
 

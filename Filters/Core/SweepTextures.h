@@ -2,7 +2,6 @@
 #ifndef po_SweepTextures_h
 #define po_SweepTextures_h
 
-#include "RimFinder.h"
 #include "TextureFormula.h"
 #include "VisibilityRecords.h"
 
@@ -19,12 +18,15 @@ public:
   SweepTextures(
     const VisibilityRecords& records, const Background& background, TextureSmoothing smoothing);
 
-  /// Fills the T * T values and outside shares of a sphere. Of one that was never seen the
-  /// shares are not looked for: values 0, shares 1.
-  void fill(unsigned sphere, float* values, float* shares) const;
+  /// Was a sphere never seen, and is not known to be buried? The textures of all these are the
+  /// same: values 0, and shares 1, since they are not looked for.
+  [[nodiscard]] bool isDark(unsigned sphere) const
+  {
+    return records_.sums(sphere) == nullptr && !records_.isBuried(sphere);
+  }
 
-  /// Fetches what fill() needs of a sphere, while other work goes on.
-  void prefetch(unsigned sphere) const;
+  /// Fills the T * T values and outside shares of a sphere.
+  void fill(unsigned sphere, float* values, float* shares) const;
 
   /// Squared standard errors of a watched sphere's texels.
   [[nodiscard]] SquaredError squaredError(unsigned sphere) const;
@@ -35,11 +37,10 @@ private:
   {
     OutsideSurface surface;
     std::vector<float> weights; ///< [slots] of its points that are outside: what open texels sum to
-    RimFinder finder;
-    std::vector<float> rims; ///< [rimGroups][GroupSize] of weights
+    std::vector<float> rims;    ///< [rimGroups][GroupSize] of weights
   };
 
-  void lookAt(const TexelRims& known, CutSurface& cut) const;
+  void lookAt(const TexelRims& rims, CutSurface& cut) const;
   void lookAtRim(const TexelRims& rims, std::size_t rim, CutSurface& cut) const;
   void weigh(const TexelRims& rims, CutSurface& cut) const;
   [[nodiscard]] std::vector<float> subsetWeights(const CutSurface& cut) const;

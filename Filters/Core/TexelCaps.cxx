@@ -46,23 +46,44 @@ void classify(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, Gro
   }
 }
 
-/// Those of the points from place i on that lie inside any of the caps.
-inline hn::Mask<Floats> areInside(const TexelPatterns& patterns, std::size_t i, const CapList& caps)
+/// A cap, in all lanes.
+struct CapLanes
 {
-  const Floats d;
-  const auto x = hn::LoadU(d, patterns.x.data() + i);
-  const auto y = hn::LoadU(d, patterns.y.data() + i);
-  const auto z = hn::LoadU(d, patterns.z.data() + i);
-  auto inside = noLanes(d);
-  for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
+  explicit CapLanes(Floats d, const RimCap& cap)
+    : x(hn::Set(d, cap.axis.x))
+    , y(hn::Set(d, cap.axis.y))
+    , z(hn::Set(d, cap.axis.z))
+    , cosine(hn::Set(d, cap.cosine))
   {
-    const RimCap& cap = caps.caps[*place];
-    const auto xy = hn::MulAdd(y, hn::Set(d, cap.axis.y), hn::Mul(x, hn::Set(d, cap.axis.x)));
-    const auto height = hn::MulAdd(z, hn::Set(d, cap.axis.z), xy);
-    inside = hn::Or(inside, hn::Gt(height, hn::Set(d, cap.cosine)));
   }
-  return inside;
-}
+
+  hn::Vec<Floats> x, y, z, cosine;
+};
+
+/// The points from a place on, and which of them lie inside caps.
+class PointLanes
+{
+public:
+  PointLanes(Floats d, const TexelPatterns& patterns, std::size_t i)
+    : x_(hn::LoadU(d, patterns.x.data() + i))
+    , y_(hn::LoadU(d, patterns.y.data() + i))
+    , z_(hn::LoadU(d, patterns.z.data() + i))
+    , inside_(noLanes(d))
+  {
+  }
+
+  void test(const CapLanes& cap)
+  {
+    const auto xy = hn::MulAdd(y_, cap.y, hn::Mul(x_, cap.x));
+    inside_ = hn::Or(inside_, hn::Gt(hn::MulAdd(z_, cap.z, xy), cap.cosine));
+  }
+
+  [[nodiscard]] hn::Mask<Floats> inside() const { return inside_; }
+
+private:
+  hn::Vec<Floats> x_, y_, z_;
+  hn::Mask<Floats> inside_;
+};
 
 /// The points of a pattern that lie inside any of the caps, as bits.
 inline unsigned insideOf(
@@ -72,8 +93,12 @@ inline unsigned insideOf(
   unsigned bits = 0;
   for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
   {
-    const std::size_t i = TexelPatterns::index(pattern, group * GroupSize + lane);
-    bits |= bitsOf(d, areInside(patterns, i, caps)) << lane;
+    PointLanes points(d, patterns, TexelPatterns::index(pattern, group * GroupSize + lane));
+    for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
+    {
+      points.test(CapLanes(d, caps.caps[*place]));
+    }
+    bits |= bitsOf(d, points.inside()) << lane;
   }
   return bits;
 }
@@ -90,17 +115,36 @@ void sumPoints(const TexelPatterns& patterns, std::size_t group, const CapList& 
     auto points = hn::Zero(d);
     auto weight = hn::Zero(d);
     auto light = hn::Zero(d);
-    for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
+    const auto add = [&](std::size_t p, const PointLanes& lanes)
     {
-      const std::size_t i = TexelPatterns::index(p, group * GroupSize + lane);
       const std::size_t inGroup = p * GroupSize + lane;
-      const auto counts = hn::AndNot(areInside(patterns, i, caps), texels);
+      const auto counts = hn::AndNot(lanes.inside(), texels);
       points = hn::Add(points, hn::IfThenElseZero(counts, one));
       weight = hn::Add(weight, hn::IfThenElseZero(counts, hn::LoadU(d, weights + inGroup)));
       if constexpr (WithIrradiance)
       {
         light = hn::Add(light, hn::IfThenElseZero(counts, hn::LoadU(d, irradiance + inGroup)));
       }
+    };
+    // Four patterns at a time, which do not wait for each other.
+    static_assert(TexelPatterns::Count % 4 == 0);
+    for (std::size_t p = 0; p < TexelPatterns::Count; p += 4)
+    {
+      const auto pointsOf = [&](std::size_t pattern)
+      { return PointLanes(d, patterns, TexelPatterns::index(pattern, group * GroupSize + lane)); };
+      PointLanes a = pointsOf(p), b = pointsOf(p + 1), c = pointsOf(p + 2), e = pointsOf(p + 3);
+      for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
+      {
+        const CapLanes cap(d, caps.caps[*place]);
+        a.test(cap);
+        b.test(cap);
+        c.test(cap);
+        e.test(cap);
+      }
+      add(p, a);
+      add(p + 1, b);
+      add(p + 2, c);
+      add(p + 3, e);
     }
     hn::StoreU(points, d, sums.points.data() + lane);
     hn::StoreU(weight, d, sums.weights.data() + lane);
@@ -136,23 +180,15 @@ bool clearRims(
   const TexelPatterns& patterns, std::size_t pattern, const TexelRims& rims, GroupMask* mask)
 {
   const std::size_t groups = patterns.groups();
-  const bool apart = rims.areToldApart();
-  for (std::size_t g = 0; apart && g < groups; ++g)
+  for (std::size_t g = 0; g < groups; ++g)
   {
     mask[g] = static_cast<GroupMask>(mask[g] & rims.outside[g]);
   }
-  for (std::size_t rim = 0; apart && rim < rims.count; ++rim)
+  for (std::size_t rim = 0; rim < rims.count; ++rim)
   {
     if ((mask[rims.rims[rim].group] & rims.rims[rim].crossed) != 0)
     {
       clearGroup(patterns, pattern, rims.rims[rim].group, rims.capsOf(rim), mask);
-    }
-  }
-  for (std::size_t g = 0; !apart && g < groups; ++g)
-  {
-    if (mask[g] != 0)
-    {
-      clearGroup(patterns, pattern, g, rims.capsOf(0), mask);
     }
   }
   unsigned left = 0;

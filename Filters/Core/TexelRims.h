@@ -35,9 +35,6 @@ struct RimGroup
 /// What of a particle's texels lies outside all other spheres, whatever points are looked at: a
 /// texel that a cap covers is inside; of one that a rim crosses each point must be tested, against
 /// the caps of these rims alone; what is left is outside. It names memory of others.
-///
-/// As long as texels are not told apart `outside` is null, and the one entry of `rims` stands for
-/// all groups, with all caps.
 struct TexelRims
 {
   const GroupMask* outside = nullptr; ///< [groups] texels that no cap covers as a whole
@@ -46,7 +43,6 @@ struct TexelRims
   const std::uint32_t* capOf = nullptr; ///< rims by rim: places in caps
   const RimCap* caps = nullptr;         ///< those whose rims cross texels that are not inside
 
-  [[nodiscard]] bool areToldApart() const { return outside != nullptr; }
   [[nodiscard]] std::size_t firstCap(std::size_t rim) const
   {
     return rim == 0 ? 0 : rims[rim - 1].end;

@@ -71,6 +71,10 @@ void TextureFormula::addParts(const SweepTexels& texels)
   for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
     const std::uint32_t texel = texels.texelOfSlot(slot);
+    if (isWhole_)
+    {
+      wholeOfSlot_.push_back(texel);
+    }
     if (texel != SweepTexels::Empty)
     {
       const int row = static_cast<int>(texel) / texels.resolution();
@@ -145,12 +149,12 @@ void TextureFormula::cutGroup(
 void TextureFormula::fill(const OutsideSurface& surface, const float* sums, const float* weights,
   float* values, float* shares) const
 {
-  fill(0, 0, values, shares);
   if (isWhole_)
   {
     fillWhole(surface, sums, weights, values, shares);
     return;
   }
+  fill(0, 0, values, shares);
   for (const Part& part : parts_)
   {
     if (weights[part.slot] > 0)
@@ -168,17 +172,30 @@ void TextureFormula::fill(const OutsideSurface& surface, const float* sums, cons
   }
 }
 
-/// The same where each texel is one of the fine ones.
+/// The same where each texel is one of the fine ones: without branches, in vectors.
 void TextureFormula::fillWhole(const OutsideSurface& surface, const float* sums,
   const float* weights, float* values, float* shares) const
 {
-  for (const Part& part : parts_)
+  for (std::size_t first = 0; first < wholeOfSlot_.size(); first += GroupSize)
   {
-    if (weights[part.slot] > 0 && surface.shares[part.slot] > 0)
+    std::array<float, GroupSize> value;
+    std::array<float, GroupSize> share;
+    for (std::size_t i = 0; i < GroupSize; ++i)
     {
-      const float open = std::min(sums[part.slot] / weights[part.slot], 1.0f);
-      values[part.texel] = open * surface.irradiance[part.slot];
-      shares[part.texel] = surface.shares[part.slot];
+      const std::size_t slot = first + i;
+      const float outside = weights[slot] > 0 ? surface.shares[slot] : 0.0f;
+      const float open = std::min(sums[slot] / (weights[slot] > 0 ? weights[slot] : 1.0f), 1.0f);
+      value[i] = outside > 0 ? open * surface.irradiance[slot] : 0.0f;
+      share[i] = outside;
+    }
+    for (std::size_t i = 0; i < GroupSize; ++i)
+    {
+      const std::uint32_t texel = wholeOfSlot_[first + i];
+      if (texel != SweepTexels::Empty)
+      {
+        values[texel] = value[i];
+        shares[texel] = share[i];
+      }
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "TextureSmoothing.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace po
@@ -106,6 +107,7 @@ private:
   std::vector<float> ones_;       ///< for all points of a group
   std::vector<float> irradiance_; ///< of all points, in the order of TexelPatterns, if not uniform
   OutsideSurface whole_;
+  std::vector<std::uint32_t> wholeOfSlot_; ///< texel of each slot, or Empty, where these are fine
   std::vector<Part> parts_;
   std::vector<float> areas_;       ///< of the texels: the sums of their parts, 1 up to rounding
   std::vector<double> steradians_; ///< of the texels

@@ -64,6 +64,31 @@ void smoothRow(const Tap* first, const Tap* last, std::size_t row, const float* 
   }
 }
 
+/// Copies whole vectors: up to one is read and written behind the last of `count`.
+inline float* copyVectors(const float* from, std::size_t count, float* to)
+{
+  const Floats d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d))
+  {
+    hn::StoreU(hn::LoadU(d, from + i), d, to + i);
+  }
+  return to + count;
+}
+
+/// Rows, continued by `margin` at both ends as they go around.
+void padRows(
+  const float* texels, std::size_t side, std::size_t margin, std::size_t stride, float* padded)
+{
+  for (std::size_t row = 0; row < side; ++row)
+  {
+    const float* from = texels + row * side;
+    float* to = padded + row * stride;
+    to = copyVectors(from + side - margin, margin, to);
+    to = copyVectors(from, side, to);
+    copyVectors(from, side - margin, to);
+  }
+}
+
 /// d becomes sqrt(d / S'), where S' is S without its own d; 0 stays.
 void scaleFactors(const float* sums, std::size_t texels, float* factors)
 {
@@ -105,6 +130,7 @@ namespace po
 {
 HWY_EXPORT(sumRow);
 HWY_EXPORT(smoothRow);
+HWY_EXPORT(padRows);
 HWY_EXPORT(scaleFactors);
 HWY_EXPORT(invertSums);
 
@@ -178,18 +204,10 @@ std::size_t TextureSmoothing::rowOffset(std::size_t row) const
   return row * stride_ + margin_;
 }
 
-void TextureSmoothing::pad(const float* texels, std::vector<float>& padded) const
+void TextureSmoothing::pad(const std::vector<float>& texels, std::vector<float>& padded) const
 {
   padded.resize(side_ * stride_);
-  for (std::size_t row = 0; row < side_; ++row)
-  {
-    const float* from = texels + row * side_;
-    float* to = padded.data() + row * stride_;
-    to = std::copy(from + side_ - margin_, from + side_, to);
-    to = std::copy(from, from + side_, to);
-    to = std::copy(from, from + side_ - margin_, to);
-    std::fill(to, padded.data() + (row + 1) * stride_, 0.0f);
-  }
+  HWY_DYNAMIC_DISPATCH(padRows)(texels.data(), side_, margin_, stride_, padded.data());
 }
 
 /// S of all texels, each without its own d.
@@ -197,10 +215,10 @@ void TextureSmoothing::sumOverKernel(
   const std::vector<float>& outside, Weights& weights, std::vector<float>& sums) const
 {
   thread_local std::vector<float> scaled;
-  scaled.resize(outside.size());
+  scaled.resize(outside.size() + GroupSize);
   std::transform(
     outside.begin(), outside.end(), weights.factors.begin(), scaled.begin(), std::multiplies<>());
-  pad(scaled.data(), weights.areas);
+  pad(scaled, weights.areas);
   sums.resize(outside.size() + GroupSize);
   for (std::size_t row = 0; row < side_; ++row)
   {
@@ -227,7 +245,7 @@ void TextureSmoothing::weigh(const float* shares, Weights& weights) const
   }
   sumOverKernel(outside, weights, sums);
   HWY_DYNAMIC_DISPATCH(invertSums)(weights.factors.data(), texels, sums.data());
-  pad(sums.data(), weights.scales);
+  pad(sums, weights.scales);
 }
 
 void TextureSmoothing::apply(float* values, const float* shares) const
@@ -237,6 +255,7 @@ void TextureSmoothing::apply(float* values, const float* shares) const
     return;
   }
   thread_local Weights cut;
+  thread_local std::vector<float> own;
   thread_local std::vector<float> padded;
   thread_local std::vector<float> smoothed;
   const bool isWhole =
@@ -246,7 +265,9 @@ void TextureSmoothing::apply(float* values, const float* shares) const
     weigh(shares, cut);
   }
   const Weights& weights = isWhole ? whole_ : cut;
-  pad(values, padded);
+  own.resize(side_ * side_ + GroupSize);
+  std::copy_n(values, side_ * side_, own.begin());
+  pad(own, padded);
   smoothed.resize(side_ + GroupSize);
   for (std::size_t row = 0; row < side_; ++row)
   {

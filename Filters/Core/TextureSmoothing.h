@@ -60,7 +60,8 @@ private:
   void addTaps(double width);
   [[nodiscard]] std::size_t rowOffset(std::size_t row) const;
   /// Rows, continued at both ends as they go around.
-  void pad(const float* texels, std::vector<float>& padded) const;
+  /// @param texels and GroupSize more
+  void pad(const std::vector<float>& texels, std::vector<float>& padded) const;
   void weigh(const float* shares, Weights& weights) const;
   void sumOverKernel(
     const std::vector<float>& outside, Weights& weights, std::vector<float>& sums) const;

@@ -79,18 +79,33 @@ void VisibilityRecords::prefetchRims(unsigned sphere) const
   }
 }
 
+void VisibilityRecords::prefetchResult(unsigned sphere) const
+{
+  constexpr std::size_t line = 64;      // bytes
+  constexpr std::size_t mostRims = 384; // mostly these are fewer
+  const auto fetch = [](const void* first, std::size_t bytes)
+  {
+    for (std::size_t at = 0; first != nullptr && at < bytes; at += line)
+    {
+      hwy::Prefetch(static_cast<const char*>(first) + at);
+    }
+  };
+  const float* seen = sums(sphere);
+  fetch(seen, texels_.slots() * sizeof(float));
+  if (seen != nullptr && !log_)
+  {
+    fetch(spheres_[sphere].rims.load(std::memory_order_relaxed), mostRims);
+  }
+}
+
 bool VisibilityRecords::clearCovered(unsigned sphere, GroupMask* mask)
 {
   if (compactRims_)
   {
-    if (wasSeen_[sphere] == 0 || !findCompactRims(sphere))
-    {
-      return true;
-    }
-    compactRims_->tellApart(sphere, order_.source(sphere));
-    return compactRims_->clearCovered(sphere, mask);
+    return wasSeen_[sphere] == 0 || !findCompactRims(sphere) ||
+      compactRims_->clearCovered(sphere, mask);
   }
-  const TexelRims* known = spheres_[sphere].wasSeen ? tellTexelsApart(sphere) : nullptr;
+  const TexelRims* known = spheres_[sphere].wasSeen ? findRims(sphere) : nullptr;
   if (known == nullptr)
   {
     return true;
@@ -183,41 +198,24 @@ VisibilityRecords::Surface VisibilityRecords::findSurface(unsigned sphere)
   if (!overlaps.buried && !overlaps.caps.empty())
   {
     surface = Surface::Cut;
-    listCaps(sphere, overlaps.caps);
+    keepRims(sphere, overlaps.caps);
   }
   surfaceOf(sphere).store(surface, std::memory_order_release);
   return surface;
 }
 
-void VisibilityRecords::listCaps(unsigned sphere, const std::vector<BuriedCap>& caps)
+void VisibilityRecords::keepRims(unsigned sphere, const std::vector<BuriedCap>& caps)
 {
   if (compactRims_)
   {
-    compactRims_->list(sphere, order_.source(sphere), caps);
+    compactRims_->keep(sphere, order_.source(sphere), caps);
     return;
   }
   thread_local RimFinder finder;
   const TexelRims* known = nullptr;
   // Two threads may make the same at once; both are equal, and one is not used.
-  const TexelRims* made = copyTo(*memory_.ofThread(), finder.list(caps), texels_.groups());
+  const TexelRims* made = copyTo(*memory_.ofThread(), finder.find(texels_, caps), texels_.groups());
   spheres_[sphere].rims.compare_exchange_strong(known, made, std::memory_order_acq_rel);
-}
-
-/// Most spheres that are looked at show points inside others alone; only for those that are seen it
-/// is worth while to tell texels apart.
-const TexelRims* VisibilityRecords::tellTexelsApart(unsigned sphere)
-{
-  const TexelRims* known = findRims(sphere);
-  if (known == nullptr || known->areToldApart())
-  {
-    return known;
-  }
-  // Two threads may do the same at once; it does not matter whose result stays.
-  thread_local RimFinder finder;
-  std::pmr::memory_resource& memory = *memory_.ofThread();
-  const TexelRims* told = copyTo(memory, finder.find(texels_, *known), texels_.groups());
-  spheres_[sphere].rims.store(told, std::memory_order_release);
-  return told;
 }
 
 void VisibilityRecords::keep(
@@ -330,11 +328,7 @@ void VisibilityRecords::end(const std::vector<unsigned>& list, const std::vector
   for (const unsigned sphere : list)
   {
     // Of spheres that were not seen they are not looked at.
-    if (wasSeen_[sphere] != 0)
-    {
-      compactRims_->tellApart(sphere, order_.source(sphere));
-    }
-    logged->append(compactRims_->isToldApart(sphere) ? rims(sphere) : nullptr);
+    logged->append(wasSeen_[sphere] != 0 ? rims(sphere) : nullptr);
   }
   loggedRims_ = std::move(logged);
   compactRims_.reset();

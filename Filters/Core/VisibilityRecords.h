@@ -88,11 +88,21 @@ public:
   /// Fetches, while other work goes on, what prefetchRims() needs of a sphere.
   void prefetch(unsigned sphere) const
   {
-    log_ ? compactRims_->prefetchPlace(sphere) : hwy::Prefetch(&spheres_[sphere]);
+    if (!log_)
+    {
+      hwy::Prefetch(&spheres_[sphere]);
+    }
+    else if (compactRims_)
+    {
+      compactRims_->prefetchPlace(sphere);
+    }
   }
 
   /// Fetches what clearCovered() needs, if the sphere has been looked at.
   void prefetchRims(unsigned sphere) const;
+
+  /// Fetches sums and rims of a sphere in memory, if there are such, while other work goes on.
+  void prefetchResult(unsigned sphere) const;
 
   /// Tells that a direction of an earlier block has seen a sphere. Not while threads look at any.
   void markSeen(unsigned sphere)
@@ -151,10 +161,9 @@ public:
   [[nodiscard]] const float* sums(unsigned sphere) const;
   /// [ErrorSubsets][slots], of a watched sphere; null for one that was never seen.
   [[nodiscard]] const float* subsetSums(unsigned sphere) const;
-  /// What overlaps a sphere that was looked at, told apart if it was looked at after it was marked
-  /// as seen; null if nothing does. Out of core it is good until the calling thread's next call of
-  /// any function, and when the sweep has ended there are those of spheres that were seen or
-  /// watched alone.
+  /// What overlaps a sphere that was looked at; null if nothing does. Out of core it is good until
+  /// the calling thread's next call of any function, and when the sweep has ended there are those
+  /// of spheres that were seen or watched alone.
   [[nodiscard]] const TexelRims* rims(unsigned sphere) const;
   /// The whole surface is known to be inside another sphere.
   [[nodiscard]] bool isBuried(unsigned sphere) const;
@@ -187,12 +196,11 @@ private:
   }
 
   void beginEpoch();
-  void listCaps(unsigned sphere, const std::vector<BuriedCap>& caps);
+  void keepRims(unsigned sphere, const std::vector<BuriedCap>& caps);
   Surface findSurface(unsigned sphere);
   [[nodiscard]] std::uint64_t countListed(Surface surface) const;
   [[nodiscard]] const TexelRims* findRims(unsigned sphere);
   [[nodiscard]] bool findCompactRims(unsigned sphere);
-  [[nodiscard]] const TexelRims* tellTexelsApart(unsigned sphere);
   [[nodiscard]] bool isAlone(unsigned sphere) const;
 
   const BakeScene& scene_;
