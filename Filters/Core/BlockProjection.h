@@ -32,8 +32,9 @@ class BlockProjection
 public:
   BlockProjection(const SweepScene& scene, Vec3d axis, const PlaneBasis& basis);
 
-  /// The spheres of a block that are named, relative to an origin. They are projected from the
-  /// middle of the block, which floats reach exactly enough however wide the scene is.
+  /// The spheres of a block that are named, relative to an origin. Doubles are rounded once, so
+  /// that a sphere's place does not depend on those that it shares a block with: processes that
+  /// have other neighbours of it must find the same.
   void project(
     const SweepScene::Block& block, BlockBits spheres, Vec3d origin, ProjectedBlock& result) const;
 
