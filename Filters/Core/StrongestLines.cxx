@@ -131,6 +131,10 @@ void StrongestLines::resize(int stride, int rows)
 std::uint32_t StrongestLines::read(int first, int x, int y, std::uint32_t rows,
   const SilhouetteImage& picture, TileLines& lines) const
 {
+  if (rows == 0)
+  {
+    return 0; // there may be no codes at all yet
+  }
   return HWY_DYNAMIC_DISPATCH(readTile)(
     codes_.data() + first, stride_, { x, y, picture.width, picture.height }, rows, lines);
 }
