@@ -27,12 +27,15 @@ inline void initRayQueryContext(RayQueryContext& context, bool /*coherent*/)
   rtcInitRayQueryContext(&context);
 }
 
-/// Occlusion test of one ray; the scene's geometry filter sees `context`.
-inline void occluded1(RTCScene scene, RayQueryContext& context, RTCRay& ray)
+/// Occlusion test of one ray; hits count that the filter, if there is one, does not reject.
+inline void occluded1(
+  RTCScene scene, RayQueryContext& context, RTCRay& ray, RTCFilterFunctionN filter = nullptr)
 {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &context;
+  arguments.filter = filter;
+  arguments.flags = filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_NONE;
   rtcOccluded1(scene, &ray, &arguments);
 }
 
@@ -60,12 +63,15 @@ inline void intersect16(const int* valid, RTCScene scene, RayQueryContext& conte
   rtcIntersect16(valid, scene, &rays, &arguments);
 }
 
-inline void occluded16(const int* valid, RTCScene scene, RayQueryContext& context, RTCRay16& rays)
+inline void occluded16(const int* valid, RTCScene scene, RayQueryContext& context, RTCRay16& rays,
+  RTCFilterFunctionN filter = nullptr)
 {
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);
   arguments.context = &context;
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.filter = filter;
+  arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_COHERENT |
+    (filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : RTC_RAY_QUERY_FLAG_NONE));
   rtcOccluded16(valid, scene, &rays, &arguments);
 }
 #else
@@ -81,9 +87,11 @@ inline void initRayQueryContext(RayQueryContext& context, bool coherent)
     coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 }
 
-/// Occlusion test of one ray; the scene's geometry filter sees `context`.
-inline void occluded1(RTCScene scene, RayQueryContext& context, RTCRay& ray)
+/// Occlusion test of one ray; hits count that the filter, if there is one, does not reject.
+inline void occluded1(
+  RTCScene scene, RayQueryContext& context, RTCRay& ray, RTCFilterFunctionN filter = nullptr)
 {
+  context.filter = filter;
   rtcOccluded1(scene, &context, &ray);
 }
 
@@ -102,8 +110,10 @@ inline void intersect16(const int* valid, RTCScene scene, RayQueryContext& conte
   rtcIntersect16(valid, scene, &context, &rays);
 }
 
-inline void occluded16(const int* valid, RTCScene scene, RayQueryContext& context, RTCRay16& rays)
+inline void occluded16(const int* valid, RTCScene scene, RayQueryContext& context, RTCRay16& rays,
+  RTCFilterFunctionN filter = nullptr)
 {
+  context.filter = filter;
   rtcOccluded16(valid, scene, &context, &rays);
 }
 #endif

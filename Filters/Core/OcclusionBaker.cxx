@@ -238,7 +238,7 @@ BakeScene::BakeScene(
 {
   if (hasMesh_)
   {
-    rays_ = std::make_unique<SphereScene>(set_, occluders.mesh, SphereScene::Queries::Occlusion);
+    rays_ = std::make_unique<SphereScene>(set_, occluders.mesh);
   }
 }
 
@@ -246,7 +246,7 @@ void BakeScene::prepareRays() const
 {
   if (!rays_)
   {
-    rays_ = std::make_unique<SphereScene>(set_, OccluderMesh{}, SphereScene::Queries::Occlusion);
+    rays_ = std::make_unique<SphereScene>(set_);
   }
 }
 

@@ -2,6 +2,7 @@
 #include "ReferenceEstimator.h"
 
 #include "ReferenceRays.h"
+#include "SurfaceTracer.h"
 #include "TexelMap.h"
 
 #include <tbb/blocked_range.h>
@@ -33,7 +34,7 @@ struct Plan
 struct Workspace
 {
   ReferenceRays::Workspace rays;
-  std::vector<TexelRay> row;     ///< rays of the row of texels at hand
+  std::vector<SurfaceRay> row;   ///< rays of the row of texels at hand
   std::vector<std::size_t> ends; ///< by column
   BakeCounters counters;
 };
@@ -56,15 +57,21 @@ Plan makePlan(const BakeScene& scene, const BakeSettings& settings)
 }
 
 /// Adds up the background over the rays that nothing stops.
-double gatherLight(const Plan& plan, unsigned id, const TexelRay* first, const TexelRay* last)
+double gatherLight(
+  const Plan& plan, const SurfaceTracer& tracer, const SurfaceRay* first, const SurfaceRay* last)
 {
   double light = 0;
   for (; first != last; ++first)
   {
-    const TexelRay& ray = *first;
-    if (!plan.scene.rays().occluded(ray.origin, ray.direction, plan.rayLength, id))
+    const SurfaceRay& ray = *first;
+    const bool open = !tracer.occluded(ray);
+    if (plan.uniform)
     {
-      light += plan.uniform ? 1 : luminance(plan.settings.background, ray.direction.as<double>());
+      light += open; // no branch on what cannot be foreseen
+    }
+    else if (open)
+    {
+      light += luminance(plan.settings.background, ray.direction.as<double>());
     }
   }
   return light;
@@ -91,11 +98,12 @@ void makeRow(const Plan& plan, unsigned id, int row, float* shares, Workspace& w
 
 void traceRow(const Plan& plan, unsigned id, float* values, Workspace& work)
 {
+  const SurfaceTracer tracer(plan.scene.rays(), id, plan.rayLength);
   std::size_t begin = 0;
   for (std::size_t column = 0; column < work.ends.size(); ++column)
   {
     const std::size_t end = work.ends[column];
-    const double light = gatherLight(plan, id, work.row.data() + begin, work.row.data() + end);
+    const double light = gatherLight(plan, tracer, work.row.data() + begin, work.row.data() + end);
     values[column] =
       begin == end ? 0.0f : static_cast<float>(light / static_cast<double>(end - begin));
     begin = end;

@@ -76,7 +76,7 @@ bool ReferenceRays::isCovered(int row, int column, Workspace& work) const
 
 /// One stratified set of rays from the part of a texel that is outside the cutting caps.
 void ReferenceRays::addSet(unsigned id, const TexelPatch& patch, Random& random, Workspace& work,
-  std::vector<TexelRay>& rays) const
+  std::vector<SurfaceRay>& rays) const
 {
   const Sphere sphere = scene_.set().inBrick(id);
   randomPermutation(random, work.pairing);
@@ -90,14 +90,14 @@ void ReferenceRays::addSet(unsigned id, const TexelPatch& patch, Random& random,
     const Vec3d normal = patch.point(place.x, place.y);
     if (!insideAny(work.cuttingCaps, normal))
     {
-      rays.push_back({ sphere.center() + sphere.radius * normal.as<float>(),
-        aboutNormal(normal, cosineHemisphereFromSquare(heading)).as<float>() });
+      rays.push_back(makeSurfaceRay(sphere, sphere.center() + sphere.radius * normal.as<float>(),
+        aboutNormal(normal, cosineHemisphereFromSquare(heading)).as<float>()));
     }
   }
 }
 
 int ReferenceRays::makeRays(
-  unsigned id, int row, int column, Workspace& work, std::vector<TexelRay>& rays) const
+  unsigned id, int row, int column, Workspace& work, std::vector<SurfaceRay>& rays) const
 {
   if (isCovered(row, column, work))
   {

@@ -7,6 +7,7 @@
 #include "OverlapFinder.h"
 #include "Random.h"
 #include "Sampling.h"
+#include "SurfaceRay.h"
 
 #include <cstdint>
 #include <vector>
@@ -14,13 +15,6 @@
 namespace po
 {
 class TexelPatch;
-
-/// One occlusion ray: from the surface of a particle outwards.
-struct TexelRay
-{
-  Vec3f origin;    ///< local, relative to the particle's brick (see SphereSet)
-  Vec3f direction; ///< unit vector
-};
 
 /// Makes the rays of the Reference estimator: stratified jittered points of a texel, each paired
 /// with a stratified jittered direction, cosine-weighted about the normal (Bigler 2004, chapter 3).
@@ -49,7 +43,7 @@ public:
   /// @return the number of sample points, those inside other particles included; 0 if the texel
   /// lies inside one other particle with all of its area
   [[nodiscard]] int makeRays(
-    unsigned id, int row, int column, Workspace& work, std::vector<TexelRay>& rays) const;
+    unsigned id, int row, int column, Workspace& work, std::vector<SurfaceRay>& rays) const;
 
 private:
   /// What all texels of a row have in common.
@@ -61,7 +55,7 @@ private:
 
   [[nodiscard]] bool isCovered(int row, int column, Workspace& work) const;
   void addSet(unsigned id, const TexelPatch& patch, Random& random, Workspace& work,
-    std::vector<TexelRay>& rays) const;
+    std::vector<SurfaceRay>& rays) const;
 
   const BakeScene& scene_;
   const BakeSettings& settings_;

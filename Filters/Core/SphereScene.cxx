@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SphereScene.h"
 
+#include "SingleRay.h"
+#include "SurfaceRay.h"
 #include "TriangleDistance.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -33,7 +34,9 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
   const auto* context = reinterpret_cast<const OcclusionContext*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i)
   {
-    if (arguments->valid[i] == 0)
+    const bool onSphere =
+      RTCHitN_geomID(arguments->hit, arguments->N, i) == SphereScene::SphereGeometry;
+    if (arguments->valid[i] == 0 || !onSphere)
     {
       continue;
     }
@@ -52,24 +55,6 @@ void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
       arguments->valid[i] = 0;
     }
   }
-}
-
-/// Embree reads four floats at once. Written one by one, just before, they would keep it waiting
-/// for a tenth of the time that a ray takes.
-RTCRay singleRay(Vec3f origin, float start, Vec3f direction, float distance)
-{
-  using FourFloats __attribute__((vector_size(16))) = float;
-  const FourFloats from{ origin.x, origin.y, origin.z, start };
-  const FourFloats towards{ direction.x, direction.y, direction.z, 0 }; // and the time
-  RTCRay ray;
-  static_assert(offsetof(RTCRay, tnear) == 12 && offsetof(RTCRay, time) == 28);
-  std::memcpy(&ray.org_x, &from, sizeof(from));
-  std::memcpy(&ray.dir_x, &towards, sizeof(towards));
-  ray.tfar = distance;
-  ray.mask = 0xFFFFFFFFu;
-  ray.id = 0;
-  ray.flags = 0;
-  return ray;
 }
 
 void addFlag(RTCScene scene, RTCSceneFlags flag)
@@ -121,25 +106,6 @@ void copyBuffer(
 
 namespace
 {
-/// A distance beyond the rounding of a ray's start, and within a thousandth of the smallest radius;
-/// 0 if there is none.
-float startBeyondRounding(const SphereSet& set)
-{
-  float extent = 0;
-  float smallest = std::numeric_limits<float>::max();
-  for (const Brick& brick : set.bricks())
-  {
-    for (const Sphere* s = brick.spheres; s != brick.spheres + brick.count; ++s)
-    {
-      extent = std::max({ extent, std::abs(s->x) + s->radius, std::abs(s->y) + s->radius,
-        std::abs(s->z) + s->radius });
-      smallest = std::min(smallest, s->radius);
-    }
-  }
-  const float start = 8 * std::numeric_limits<float>::epsilon() * extent;
-  return start < 1e-3f * smallest ? start : 0.0f;
-}
-
 /// Clips [enter, leave] of a ray to one slab.
 void clipSlab(
   double origin, double direction, double low, double high, double& enter, double& leave)
@@ -172,20 +138,15 @@ bool mayMeet(const Brick& brick, Vec3d origin, Vec3f direction, double distance)
 }
 }
 
-SphereScene::SphereScene(
-  std::shared_ptr<const SphereSet> set, const OccluderMesh& mesh, Queries queries)
+SphereScene::SphereScene(std::shared_ptr<const SphereSet> set, const OccluderMesh& mesh)
   : device_(makeDevice(set->size() + mesh.triangles.size()))
   , set_(std::move(set))
   , hasMesh_(!mesh.triangles.empty())
-  , rayStart_(hasMesh_ ? 0.0f : startBeyondRounding(*set_))
 {
   for (const Brick& brick : set_->bricks())
   {
     scenes_.push_back(makeScene(device_.get()));
-    if (queries == Queries::All)
-    {
-      addFlag(scenes_.back().get(), QueryFilterFlag);
-    }
+    addFlag(scenes_.back().get(), QueryFilterFlag);
     if (brick.count > 0)
     {
       addSpheres(scenes_.back().get(), brick);
@@ -214,7 +175,6 @@ void SphereScene::addSpheres(RTCScene scene, const Brick& brick)
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
     brick.spheres, 0, sizeof(Sphere), brick.count);
   rtcSetGeometryUserData(geometry.get(), const_cast<Brick*>(&brick));
-  rtcSetGeometryOccludedFilterFunction(geometry.get(), keepSpheresAhead);
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene, geometry.get(), SphereGeometry);
 }
@@ -240,14 +200,34 @@ void SphereScene::addTriangles(RTCScene scene, const OccluderMesh& mesh)
 bool SphereScene::occluded(
   Vec3f origin, Vec3f direction, float distance, unsigned own, const std::uint8_t* hidden) const
 {
-  const Rays rays{ &origin, 1, direction, distance, own, hidden };
+  Rays rays{ &origin, 1, direction, distance, own, hidden, {}, nullptr };
+  chooseStarts(rays);
   return traceAll(rays) != 0;
 }
 
 unsigned SphereScene::occludedFrom(
   const Vec3f* origins, unsigned count, Vec3f direction, float distance, unsigned own) const
 {
-  return traceAll({ origins, count, direction, distance, own, nullptr });
+  Rays rays{ origins, count, direction, distance, own, nullptr, {}, nullptr };
+  chooseStarts(rays);
+  return traceAll(rays);
+}
+
+/// Rays begin beyond their own sphere, or else the filter is needed for all of them.
+void SphereScene::chooseStarts(Rays& rays) const
+{
+  bool filtered = rays.own == None || rays.hidden != nullptr || hasMesh_;
+  if (!filtered)
+  {
+    const Sphere own = set_->inBrick(rays.own);
+    for (unsigned i = 0; i < rays.count; ++i)
+    {
+      const std::optional<float> start = rayStart(own, rays.origins[i], rays.direction);
+      rays.starts[i] = start.value_or(0.0f);
+      filtered = filtered || !start;
+    }
+  }
+  rays.filter = filtered ? keepSpheresAhead : nullptr;
 }
 
 unsigned SphereScene::traceAll(const Rays& rays) const
@@ -284,6 +264,7 @@ unsigned SphereScene::traceBricks(const Rays& rays) const
   }
   if (mesh_ && stopped != all)
   {
+    moved.filter = nullptr; // of spheres
     traceFrom(mesh_.get(), {});
   }
   return stopped;
@@ -301,12 +282,11 @@ unsigned SphereScene::traceSingly(RTCScene scene, const Rays& rays) const
   context.own = rays.own;
   context.hidden = rays.hidden;
   unsigned stopped = 0;
-  const float start = rays.own == None ? 0 : rayStart_;
   for (unsigned i = 0; i < rays.count; ++i)
   {
-    RTCRay ray = singleRay(rays.origins[i], start, rays.direction, rays.distance);
-    occluded1(scene, context.embree, ray);
-    stopped |= unsigned(ray.tfar < 0) << i; // Embree marks an occluded ray with -infinity
+    const bool hit = isStopped(scene, context.embree, rays.origins[i], rays.starts[i],
+      rays.direction, rays.distance, rays.filter);
+    stopped |= unsigned(hit) << i;
   }
   return stopped;
 }
@@ -321,12 +301,13 @@ unsigned SphereScene::tracePacket(RTCScene scene, const Rays& rays) const
   RTCRay16 packet;
   for (unsigned i = 0; i < PacketSize; ++i)
   {
-    const Vec3f origin = rays.origins[i < rays.count ? i : 0];
+    const unsigned source = i < rays.count ? i : 0;
+    const Vec3f origin = rays.origins[source];
     valid[i] = i < rays.count ? -1 : 0;
     packet.org_x[i] = origin.x;
     packet.org_y[i] = origin.y;
     packet.org_z[i] = origin.z;
-    packet.tnear[i] = rays.own == None ? 0 : rayStart_;
+    packet.tnear[i] = rays.starts[source];
     packet.dir_x[i] = rays.direction.x;
     packet.dir_y[i] = rays.direction.y;
     packet.dir_z[i] = rays.direction.z;
@@ -336,7 +317,7 @@ unsigned SphereScene::tracePacket(RTCScene scene, const Rays& rays) const
     packet.id[i] = i;
     packet.flags[i] = 0;
   }
-  occluded16(valid, scene, context.embree, packet);
+  occluded16(valid, scene, context.embree, packet, rays.filter);
   unsigned stopped = 0;
   for (unsigned i = 0; i < rays.count; ++i)
   {

@@ -6,6 +6,7 @@
 #include "OccluderMesh.h"
 #include "SphereSet.h"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -16,20 +17,23 @@ namespace po
 {
 /// Spheres, and maybe triangles, in an Embree scene, with occlusion tests that need no epsilon.
 ///
-/// A point outside (or on) a sphere can only see it where the sphere's centre lies ahead of the
-/// ray: the ray's nearest approach to the centre is then at t > 0. Occlusion rays keep only such
-/// hits, so rounding at the start of a ray can hit neither the sphere it starts on nor one that it
-/// touches. The rule asks that the origin lies outside all spheres; samples inside another sphere
-/// must be sorted out before (see OverlapFinder).
+/// Rays from a sphere's surface begin just so far off it that Embree cannot report it, computed for
+/// each ray (see rayStart()). What lies between is met all the same, from its far side, but for
+/// chords shorter than that: a few millionths of the radius as a rule.
 ///
-/// Only for speed do rays from a sphere's surface begin a little off it, beyond rounding, where
-/// that is within a thousandth of the smallest radius: Embree then need not report their own sphere
-/// to the filter. What lies between is met all the same, from its far side, but for chords shorter
-/// than that.
+/// Where that would be too far a filter looks at the hits instead. A point outside (or on) a sphere
+/// can only see it where the sphere's centre lies ahead of the ray: the ray's nearest approach to
+/// the centre is then at t > 0. The filter keeps only such hits, so rounding at the start of a ray
+/// can hit neither the sphere it starts on nor one that it touches. The two ways tell apart at most
+/// the rays from points that lie inside another sphere by rounding alone.
+///
+/// Both ask that the origin lies outside all spheres; samples inside another sphere must be sorted
+/// out before (see OverlapFinder).
 ///
 /// Triangles stop occlusion rays from both sides. They need no such rule: a ray starts on a sphere,
 /// so on a triangle only by chance, and a triangle that cuts through the sphere is met by the rays
-/// that leave towards it, from whichever side they start.
+/// that leave towards it, from whichever side they start. They have no far side either: beside them
+/// all rays begin on the surface, with the filter.
 class SphereScene
 {
 public:
@@ -39,19 +43,11 @@ public:
   static constexpr unsigned SphereGeometry = 0;
   static constexpr unsigned TriangleGeometry = 1;
 
-  /// What a scene is asked for.
-  enum class Queries
-  {
-    Occlusion, ///< only what the functions below tell
-    All        ///< also hits, with filters of the caller: occlusion rays then take 10 % longer
-  };
-
   /// Builds the acceleration structure in parallel. An empty scene is allowed. The mesh is copied.
   /// Throws std::runtime_error or std::bad_alloc when Embree cannot.
-  explicit SphereScene(std::shared_ptr<const SphereSet> set, const OccluderMesh& mesh = {},
-    Queries queries = Queries::All);
-  explicit SphereScene(SphereSet set, const OccluderMesh& mesh = {}, Queries queries = Queries::All)
-    : SphereScene(std::make_shared<const SphereSet>(std::move(set)), mesh, queries)
+  explicit SphereScene(std::shared_ptr<const SphereSet> set, const OccluderMesh& mesh = {});
+  explicit SphereScene(SphereSet set, const OccluderMesh& mesh = {})
+    : SphereScene(std::make_shared<const SphereSet>(std::move(set)), mesh)
   {
   }
   explicit SphereScene(std::vector<Sphere> spheres, const OccluderMesh& mesh = {})
@@ -59,15 +55,17 @@ public:
   {
   }
 
-  /// For rays of the caller's own making, relative to the origin of a brick of the set. Filters of
-  /// single queries are called only in a scene for all queries.
-  /// Intersections are Embree's, unfiltered; in a scene with a mesh and one brick, hits on
-  /// triangles have the geometry id TriangleGeometry.
+  /// For rays of the caller's own making, relative to the origin of a brick of the set, with
+  /// filters of single queries or none. In a scene with a mesh and one brick, hits on triangles
+  /// have the geometry id TriangleGeometry.
   [[nodiscard]] RTCScene handle(std::size_t brick = 0) const { return scenes_[brick].get(); }
 
   [[nodiscard]] const SphereSet& set() const { return *set_; }
   [[nodiscard]] const std::vector<Sphere>& spheres() const { return set_->spheres(); }
   [[nodiscard]] bool hasMesh() const { return hasMesh_; }
+
+  /// Nothing but spheres, in one brick.
+  [[nodiscard]] bool isPlain() const { return !hasMesh_ && scenes_.size() == 1; }
 
   /// Is anything hit between the origin and `distance`?
   ///
@@ -101,10 +99,13 @@ private:
     float distance;
     unsigned own;
     const std::uint8_t* hidden;
+    std::array<float, PacketSize> starts; ///< where they begin
+    RTCFilterFunctionN filter;            ///< of hits, or null
   };
 
   void addSpheres(RTCScene scene, const Brick& brick);
   void addTriangles(RTCScene scene, const OccluderMesh& mesh);
+  void chooseStarts(Rays& rays) const;
   [[nodiscard]] unsigned traceAll(const Rays& rays) const;
   [[nodiscard]] unsigned trace(RTCScene scene, const Rays& rays) const;
   [[nodiscard]] unsigned traceSingly(RTCScene scene, const Rays& rays) const;
@@ -114,7 +115,6 @@ private:
   DeviceHandle device_;
   std::shared_ptr<const SphereSet> set_;
   bool hasMesh_;
-  float rayStart_;                  ///< where rays from a sphere's surface begin
   std::vector<SceneHandle> scenes_; ///< by brick; the only one holds the triangles too
   SceneHandle mesh_;                ///< the triangles beside several bricks, or null
 };

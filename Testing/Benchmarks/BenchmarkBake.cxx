@@ -18,6 +18,7 @@
 #include "OcclusionBaker.h"
 #include "ReferenceEstimator.h"
 #include "ReferenceRays.h"
+#include "SurfaceTracer.h"
 #include "SyntheticSpheres.h"
 
 #include <benchmark/benchmark.h>
@@ -93,7 +94,7 @@ void forEachTexel(const Workload& work, const Function& f)
   const po::BakeSettings s = settings();
   const po::ReferenceRays rays(work.scene, s);
   po::ReferenceRays::Workspace memory;
-  std::vector<po::TexelRay> made;
+  std::vector<po::SurfaceRay> made;
   for (const unsigned id : work.baked)
   {
     const bool visible = rays.beginParticle(id, memory);
@@ -142,12 +143,13 @@ public:
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_.get());
     forEachTexel(work,
-      [&](unsigned id, const std::vector<po::TexelRay>& rays)
+      [&](unsigned id, const std::vector<po::SurfaceRay>& rays)
       {
-        for (const po::TexelRay& ray : rays)
+        const po::SurfaceTracer bake(work.scene.rays(), id, std::numeric_limits<float>::infinity());
+        for (const po::SurfaceRay& ray : rays)
         {
           rays_.push_back(query(ray));
-          differing_ += isOccluded(rays_.back()) != bakeSeesHit(work, id, ray);
+          differing_ += isOccluded(rays_.back()) != bake.occluded(ray);
         }
       });
   }
@@ -170,7 +172,7 @@ public:
   }
 
 private:
-  [[nodiscard]] RTCRay query(const po::TexelRay& ray) const
+  [[nodiscard]] RTCRay query(const po::SurfaceRay& ray) const
   {
     return { ray.origin.x, ray.origin.y, ray.origin.z, start_, ray.direction.x, ray.direction.y,
       ray.direction.z, 0, std::numeric_limits<float>::infinity(), 0xFFFFFFFFu, 0, 0 };
@@ -182,12 +184,6 @@ private:
     po::initRayQueryContext(context, false);
     po::occluded1(scene_.get(), context, ray);
     return ray.tfar < 0;
-  }
-
-  [[nodiscard]] static bool bakeSeesHit(const Workload& work, unsigned id, const po::TexelRay& ray)
-  {
-    return work.scene.rays().occluded(
-      ray.origin, ray.direction, std::numeric_limits<float>::infinity(), id);
   }
 
   po::DeviceHandle device_;
@@ -227,7 +223,7 @@ void generate(benchmark::State& state, const std::string& family)
   {
     count = 0;
     forEachTexel(work,
-      [&](unsigned, const std::vector<po::TexelRay>& rays)
+      [&](unsigned, const std::vector<po::SurfaceRay>& rays)
       {
         count += rays.size();
         benchmark::DoNotOptimize(rays.data());
