@@ -36,20 +36,6 @@ void randomPermutation(Random& random, std::vector<std::uint32_t>& order)
   }
 }
 
-Point2 diskFromSquare(Point2 square)
-{
-  const double a = 2 * square.x - 1;
-  const double b = 2 * square.y - 1;
-  if (a == 0 && b == 0)
-  {
-    return { 0, 0 };
-  }
-  const bool wide = std::abs(a) > std::abs(b);
-  const double radius = wide ? a : b;
-  const double angle = wide ? Pi / 4 * (b / a) : Pi / 2 - Pi / 4 * (a / b);
-  return { radius * std::cos(angle), radius * std::sin(angle) };
-}
-
 Point2 squareFromDisk(Point2 disk)
 {
   const double radius = std::hypot(disk.x, disk.y);
@@ -83,12 +69,6 @@ Point2 squareFromDisk(Point2 disk)
   return { (a + 1) / 2, (b + 1) / 2 };
 }
 
-Vec3d cosineHemisphereFromSquare(Point2 square)
-{
-  const Point2 d = diskFromSquare(square);
-  return { d.x, d.y, std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y)) };
-}
-
 double cosineHemispherePdf(Vec3d direction)
 {
   return std::max(0.0, direction.z) / Pi;
@@ -97,15 +77,5 @@ double cosineHemispherePdf(Vec3d direction)
 Point2 squareFromCosineHemisphere(Vec3d direction)
 {
   return squareFromDisk({ direction.x, direction.y });
-}
-
-Vec3d aboutNormal(Vec3d n, Vec3d direction)
-{
-  const double sign = std::copysign(1.0, n.z);
-  const double a = -1 / (sign + n.z);
-  const double b = n.x * n.y * a;
-  const Vec3d tangent{ 1 + sign * n.x * n.x * a, sign * b, -sign * n.x };
-  const Vec3d bitangent{ b, sign + n.y * n.y * a, -n.y };
-  return direction.x * tangent + direction.y * bitangent + direction.z * n;
 }
 }

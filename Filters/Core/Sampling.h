@@ -2,9 +2,12 @@
 #ifndef po_Sampling_h
 #define po_Sampling_h
 
+#include "Constants.h"
 #include "Random.h"
 #include "Vec3.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -45,14 +48,29 @@ private:
 void randomPermutation(Random& random, std::vector<std::uint32_t>& order);
 
 /// Unit square to unit disk, area-preserving and with little distortion (Shirley and Chiu 1997).
-[[nodiscard]] Point2 diskFromSquare(Point2 square);
+[[nodiscard]] inline Point2 diskFromSquare(Point2 square)
+{
+  const double a = 2 * square.x - 1;
+  const double b = 2 * square.y - 1;
+  // Which is the larger cannot be foreseen: the rest is the same for both, without a branch.
+  const bool wide = std::abs(a) > std::abs(b);
+  const double radius = wide ? a : b;
+  const double angle = radius == 0 ? 0 : Pi / 4 * ((wide ? b : a) / radius);
+  const double along = radius * std::cos(angle);
+  const double across = radius * std::sin(angle);
+  return wide ? Point2{ along, across } : Point2{ across, along };
+}
 
 /// The inverse of diskFromSquare.
 [[nodiscard]] Point2 squareFromDisk(Point2 disk);
 
 /// Unit square to the hemisphere about +z with density cos(theta) / pi per steradian: a uniform
 /// point of the disk is lifted onto the hemisphere (Malley's method).
-[[nodiscard]] Vec3d cosineHemisphereFromSquare(Point2 square);
+[[nodiscard]] inline Vec3d cosineHemisphereFromSquare(Point2 square)
+{
+  const Point2 d = diskFromSquare(square);
+  return { d.x, d.y, std::sqrt(std::max(0.0, 1 - d.x * d.x - d.y * d.y)) };
+}
 
 /// Density of cosineHemisphereFromSquare per steradian.
 [[nodiscard]] double cosineHemispherePdf(Vec3d direction);
@@ -62,7 +80,15 @@ void randomPermutation(Random& random, std::vector<std::uint32_t>& order);
 
 /// Turns a direction given about +z into one about the unit vector n, with a branchless basis
 /// (Duff et al. 2017).
-[[nodiscard]] Vec3d aboutNormal(Vec3d n, Vec3d direction);
+[[nodiscard]] inline Vec3d aboutNormal(Vec3d n, Vec3d direction)
+{
+  const double sign = std::copysign(1.0, n.z);
+  const double a = -1 / (sign + n.z);
+  const double b = n.x * n.y * a;
+  const Vec3d tangent{ 1 + sign * n.x * n.x * a, sign * b, -sign * n.x };
+  const Vec3d bitangent{ b, sign + n.y * n.y * a, -n.y };
+  return direction.x * tangent + direction.y * bitangent + direction.z * n;
+}
 }
 
 #endif

@@ -34,14 +34,6 @@ TexelPatch::TexelPatch(int resolution, int row, int column)
 {
 }
 
-Vec3d TexelPatch::point(double s, double t) const
-{
-  const double z = top_ + t * height_;
-  const double azimuth = azimuth_ + s * azimuthWidth_;
-  const double radius = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
-  return { radius * std::cos(azimuth), radius * std::sin(azimuth), z };
-}
-
 double texelArea(int resolution, int row)
 {
   const double top = std::cos(Pi * row / resolution);

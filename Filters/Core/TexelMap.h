@@ -4,7 +4,9 @@
 
 #include "Vec3.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace po
@@ -41,7 +43,13 @@ public:
   /// Maps the unit square to the texel with uniform area: cos(theta) is linear in the area
   /// (Archimedes), so z is interpolated, not theta.
   /// @param s, t in [0, 1]: along the azimuth, along the polar angle
-  [[nodiscard]] Vec3d point(double s, double t) const;
+  [[nodiscard]] Vec3d point(double s, double t) const
+  {
+    const double z = top_ + t * height_;
+    const double azimuth = azimuth_ + s * azimuthWidth_;
+    const double radius = std::sqrt(std::max(0.0, (1 - z) * (1 + z)));
+    return { radius * std::cos(azimuth), radius * std::sin(azimuth), z };
+  }
 
 private:
   double top_;          ///< z of the upper edge
