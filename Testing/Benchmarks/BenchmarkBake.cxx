@@ -4,15 +4,13 @@
 ///
 /// Bake/FAMILY      the estimator: rays, occlusion tests, sums, bookkeeping
 /// Generate/FAMILY  the bake's own rays from the bake's own code, dropped instead of traced: the
-///                  search for overlaps, and which samples get a ray, included
-/// Bare/FAMILY      rtcOccluded1 over the very same rays, stored, without any filter
-/// Filtered/FAMILY  the same with a filter of the same rule as the bake's (see SphereScene), which
-///                  does without an epsilon
+///                  search for overlaps, which samples get a ray, and where it begins, included
+/// Bare/FAMILY      rtcOccluded1 over the very same rays, stored, from an epsilon on
 ///
 /// Repetitions of all are shuffled, so that load from outside falls on all alike; the table at the
-/// end is of their medians. share = (Generate + Filtered) / Bake is what the bake spends in Embree
-/// or in ray generation; ray rate = Bare / (Bake - Generate) is its rate of tracing against the
-/// bare loop's, and Filtered / (Bake - Generate) that against the loop with the filter.
+/// end is of their medians. share = (Generate + Bare) / Bake is what the bake spends in ray
+/// generation, or cannot but spend in Embree; ray rate = Bare / (Bake - Generate) is its rate of
+/// tracing against the bare loop's.
 
 #include "Embree.h"
 #include "OcclusionBaker.h"
@@ -107,37 +105,17 @@ void forEachTexel(const Workload& work, const Function& f)
   }
 }
 
-/// A single ray's hits count where the sphere's centre lies ahead.
-void keepSpheresAhead(const RTCFilterFunctionNArguments* arguments)
-{
-  const auto* spheres = static_cast<const po::Sphere*>(arguments->geometryUserPtr);
-  const auto* ray = reinterpret_cast<const RTCRay*>(arguments->ray);
-  const auto* hit = reinterpret_cast<const RTCHit*>(arguments->hit);
-  const po::Vec3f offset =
-    spheres[hit->primID].center() - po::Vec3f{ ray->org_x, ray->org_y, ray->org_z };
-  if (dot(offset, po::Vec3f{ ray->dir_x, ray->dir_y, ray->dir_z }) <= 0)
-  {
-    arguments->valid[0] = 0;
-  }
-}
-
 /// The rays of the bake, and a scene of their own.
 class BareLoop
 {
 public:
-  BareLoop(const Workload& work, bool filtered)
+  explicit BareLoop(const Workload& work)
     : device_(po::makeDevice(work.cloud.spheres.size()))
     , scene_(rtcNewScene(device_.get()))
-    , start_(filtered ? 1e-4f : 1e-3f) // where the filter helps, less keeps most hits away from it
   {
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
       work.cloud.spheres.data(), 0, sizeof(po::Sphere), work.cloud.spheres.size());
-    if (filtered)
-    {
-      rtcSetGeometryUserData(geometry, const_cast<po::Sphere*>(work.cloud.spheres.data()));
-      rtcSetGeometryOccludedFilterFunction(geometry, keepSpheresAhead);
-    }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);
@@ -172,9 +150,11 @@ public:
   }
 
 private:
-  [[nodiscard]] RTCRay query(const po::SurfaceRay& ray) const
+  static constexpr float Start = 1e-3f; ///< epsilon
+
+  [[nodiscard]] static RTCRay query(const po::SurfaceRay& ray)
   {
-    return { ray.origin.x, ray.origin.y, ray.origin.z, start_, ray.direction.x, ray.direction.y,
+    return { ray.origin.x, ray.origin.y, ray.origin.z, Start, ray.direction.x, ray.direction.y,
       ray.direction.z, 0, std::numeric_limits<float>::infinity(), 0xFFFFFFFFu, 0, 0 };
   }
 
@@ -188,7 +168,6 @@ private:
 
   po::DeviceHandle device_;
   po::SceneHandle scene_;
-  float start_; ///< epsilon
   std::vector<RTCRay> rays_;
   std::size_t differing_ = 0;
 };
@@ -232,14 +211,13 @@ void generate(benchmark::State& state, const std::string& family)
   countRays(state, count);
 }
 
-template <bool Filtered>
 void bare(benchmark::State& state, const std::string& family)
 {
   static std::map<std::string, std::unique_ptr<BareLoop>> cache;
   auto& loop = cache[family];
   if (!loop)
   {
-    loop = std::make_unique<BareLoop>(workload(family), Filtered);
+    loop = std::make_unique<BareLoop>(workload(family));
   }
   std::size_t occluded = 0;
   for (auto _ : state)
@@ -270,18 +248,16 @@ public:
 
   void printTable() const
   {
-    std::printf(
-      "\n| family | bake, ms | generate | bare Embree | with the filter | share | ray rate "
-      "| with the filter |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    std::printf("\n| family | bake, ms | generate | bare Embree | share | ray rate |\n"
+                "| --- | ---: | ---: | ---: | ---: | ---: |\n");
     for (const char* family : Families)
     {
       const double whole = of("Bake", family), rays = of("Generate", family);
-      const double traced = of("Bare", family), filtered = of("Filtered", family);
-      if (whole > 0 && rays > 0 && traced > 0 && filtered > 0)
+      const double traced = of("Bare", family);
+      if (whole > 0 && rays > 0 && traced > 0)
       {
-        std::printf("| %s | %.0f | %.0f | %.0f | %.0f | %.0f %% | %.0f %% | %.0f %% |\n", family,
-          whole, rays, traced, filtered, 100 * (rays + filtered) / whole,
-          100 * traced / (whole - rays), 100 * filtered / (whole - rays));
+        std::printf("| %s | %.0f | %.0f | %.0f | %.0f %% | %.0f %% |\n", family, whole, rays,
+          traced, 100 * (rays + traced) / whole, 100 * traced / (whole - rays));
       }
     }
   }
@@ -312,8 +288,7 @@ int main(int argc, char** argv)
   {
     add("Bake", family, bake);
     add("Generate", family, generate);
-    add("Bare", family, bare<false>);
-    add("Filtered", family, bare<true>);
+    add("Bare", family, bare);
   }
   std::vector<char*> arguments(argv, argv + argc);
   // Before those of the caller, who may so ask for others.

@@ -174,9 +174,8 @@ def plot_skips(rows, folder):
 
 def plot_rays(rows, folder):
     figure, (axis,) = panels(1, 7, 4)
-    rates = {"ray rate": "ray_rate", "with the filter": "filtered_rate"}
-    bars(axis, [row["scene"] for row in rows], list(rates),
-         lambda scene, rate: 100 * first_of(pick(rows, scene=scene), rates[rate]))
+    bars(axis, [row["scene"] for row in rows], ["ray rate"],
+         lambda scene, _: 100 * first_of(pick(rows, scene=scene), "ray_rate"))
     axis.set_ylabel("rate of tracing, % of bare rtcOccluded1")
     return save(figure, folder, "rays")
 

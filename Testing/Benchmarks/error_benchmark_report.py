@@ -12,8 +12,7 @@ COLUMNS = [
     "skip", "state", "condition", "rms_difference",
     "spheresClosed", "spheresNeverSeen", "directionsBlack", "texelsInside", "particlesBuried",
     "particlesAlone", "texturesStored",
-    "rays", "bake_ms", "generate_ms", "bare_ms", "filtered_ms", "share", "ray_rate",
-    "filtered_rate"]
+    "rays", "bake_ms", "generate_ms", "bare_ms", "share", "ray_rate"]
 TEXT_COLUMNS = {"series", "scene", "method", "target", "skip", "state", "condition"}
 WHOLE_COLUMNS = {
     "particles", "resolution", "level", "threads", "measured_particles", "judged_particles",
@@ -149,11 +148,11 @@ def ray_row(results, family):
     medians = {result["run_name"].split("/")[0]: result for result in results
                if result.get("aggregate_name") == "median"
                and result["run_name"].split("/")[1] == family}
-    bake, generate, bare, filtered = (
-        medians[name]["cpu_time"] for name in ["Bake", "Generate", "Bare", "Filtered"])
+    bake, generate, bare = (
+        medians[name]["cpu_time"] for name in ["Bake", "Generate", "Bare"])
     return {"rays": round(medians["Bare"]["rays"]), "bake_ms": bake, "generate_ms": generate,
-            "bare_ms": bare, "filtered_ms": filtered, "share": (generate + filtered) / bake,
-            "ray_rate": bare / (bake - generate), "filtered_rate": filtered / (bake - generate)}
+            "bare_ms": bare, "share": (generate + bare) / bake,
+            "ray_rate": bare / (bake - generate)}
 
 
 # ---- Markdown
@@ -272,13 +271,11 @@ def stored_table(rows):
 
 def rays_body(rows):
     lines = [[row["scene"], row["rays"], row["bake_ms"], row["generate_ms"], row["bare_ms"],
-              row["filtered_ms"], f"{100 * row['share']:.0f} %", f"{100 * row['ray_rate']:.0f} %",
-              f"{100 * row['filtered_rate']:.0f} %"] for row in rows]
-    return ("One thread, medians of CPU milliseconds. Share = (generate + bare with the filter) / "
-            "bake; ray rate =\nbare / (bake - generate), the rate of tracing against the bare "
-            "loop's, without the filter and with it.\n\n" +
-            table(["family", "rays", "bake, ms", "generate", "bare Embree", "with the filter",
-                   "share", "ray rate", "with the filter"], lines))
+              f"{100 * row['share']:.0f} %", f"{100 * row['ray_rate']:.0f} %"] for row in rows]
+    return ("One thread, medians of CPU milliseconds. Share = (generate + bare) / bake; ray rate = "
+            "bare /\n(bake - generate), the rate of tracing against the bare loop's.\n\n" +
+            table(["family", "rays", "bake, ms", "generate", "bare Embree", "share", "ray rate"],
+                  lines))
 
 
 # Series whose rows are no plain measurements.
