@@ -50,17 +50,9 @@ void TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
   const bool bounded = std::isfinite(direction.distance);
   ProjectedSphere sphere = s.sphere;
   sphere.z = direction.upward ? sphere.z : -sphere.z;
-  if (s.role == TileRole::Other)
+  if (s.receives)
   {
-    const bool hidden = sphere.index < band_.first && (seen[sphere.index] & direction.bit()) == 0;
-    if (hidden && !bounded)
-    {
-      return;
-    }
-  }
-  else
-  {
-    const Sight sight = look(s, sphere, direction);
+    const Sight sight = look(sphere, direction);
     if (sight == Sight::Nothing && !bounded)
     {
       return;
@@ -70,22 +62,20 @@ void TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
       seen[sphere.index] = static_cast<std::uint8_t>(seen[sphere.index] | direction.bit());
     }
   }
+  else if (sphere.index < band_.first && (seen[sphere.index] & direction.bit()) == 0 && !bounded)
+  {
+    return;
+  }
   cells_.insert(sphere);
 }
 
-TileSweep::Sight TileSweep::look(
-  const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
+TileSweep::Sight TileSweep::look(const ProjectedSphere& sphere, const SweptDirection& direction)
 {
   std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
   if (!records_.clearCovered(sphere.index, mask_.data()) ||
     !passes(cells_.cellOf(sphere), sphere, direction) || !passes(cells_.wide(), sphere, direction))
   {
     return Sight::Nothing;
-  }
-  // Others occlude, whether their points lie inside others or not.
-  if (tileSphere.role != TileRole::Receiver)
-  {
-    return Sight::Occluder;
   }
   records_.prefetchMasks(sphere.index, direction.axis);
   if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))
