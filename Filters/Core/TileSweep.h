@@ -72,6 +72,7 @@ private:
     Surface
   };
 
+  void listVisited(DepthOrder& order, const SweptDirection& direction);
   void visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
   [[nodiscard]] Sight look(const ProjectedSphere& sphere, const SweptDirection& direction);
   void keep(unsigned sphere, const SweptDirection& direction);
@@ -82,7 +83,8 @@ private:
   SweepDivision* division_;
   OccluderCells cells_;
   SweepScene::Band band_{};
-  std::vector<GroupMask> mask_; ///< of the sphere at hand
+  std::vector<const TileSphere*> visited_; ///< in the direction at hand
+  std::vector<GroupMask> mask_;            ///< of the sphere at hand
   std::array<std::uint64_t, 2> visits_{};
 };
 }
