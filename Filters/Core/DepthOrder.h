@@ -13,8 +13,8 @@ namespace po
 {
 /// The spheres of a tile in the order of their depth, from either end.
 ///
-/// They are dealt into slabs of equal depth, and a slab is sorted when it is first asked for: where
-/// all light is stopped at the surface, what lies below it is never sorted.
+/// They are dealt into slabs of equal depth, and a slab is sorted when it is first asked for, once
+/// for both directions.
 class DepthOrder
 {
 public:

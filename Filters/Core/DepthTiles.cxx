@@ -171,12 +171,9 @@ void DepthTiles::sortIntoTiles()
   for (const Member& m : members_)
   {
     const std::size_t home = m.sameBand ? homeOf(m.sphere) : tiles;
-    const TileRole elsewhere = m.sameBand ? TileRole::Halo : TileRole::Other;
     visitTiles(m,
-      [&](std::size_t tile)
-      {
-        entries_[next_[tile]++] = { m.sphere, tile == home ? TileRole::Receiver : elsewhere,
-          m.hidden };
+      [&](std::size_t tile) {
+        entries_[next_[tile]++] = { m.sphere, tile == home, m.hidden };
       });
   }
 }

@@ -20,14 +20,6 @@ struct ProjectedSphere
   unsigned index; ///< in the SweepScene
 };
 
-/// What a sphere is to a tile.
-enum class TileRole : std::uint8_t
-{
-  Receiver, ///< its centre lies in the tile
-  Halo,     ///< of the tile's band, centre outside: may hide receivers
-  Other,    ///< of another band: may hide receivers
-};
-
 /// Of the two directions of an axis: the light comes from where z grows, or from the other side.
 enum DirectionBit : std::uint8_t
 {
@@ -38,7 +30,7 @@ enum DirectionBit : std::uint8_t
 struct TileSphere
 {
   ProjectedSphere sphere;
-  TileRole role;
+  bool receives;       ///< it is one of the tile's receivers; the others may hide these
   std::uint8_t hidden; ///< bits of the directions in which nothing of it shows
 };
 

@@ -16,16 +16,13 @@ constexpr float Infinity = HUGE_VALF;
 
 void OccluderCells::begin(const DepthTile& tile, const SweepScene::Band& band)
 {
-  const float reach = band.largestRadius;
-  // Halo spheres, with centres up to two reaches outside, look into the cells too.
-  const float width = tile.width + 4 * reach;
   const float typical = 0.5f * (band.smallestRadius + band.largestRadius);
-  reach_ = reach;
-  lowX_ = tile.x - 2 * reach;
-  lowY_ = tile.y - 2 * reach;
-  cell_ = std::max(CellWidth * typical, width / MostCells);
+  reach_ = band.largestRadius;
+  lowX_ = tile.x;
+  lowY_ = tile.y;
+  cell_ = std::max(CellWidth * typical, tile.width / MostCells);
   perCell_ = 1 / cell_;
-  side_ = static_cast<int>(std::ceil(width / cell_));
+  side_ = static_cast<int>(std::ceil(tile.width / cell_));
   heads_.assign(
     static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), OccluderList::Empty);
   wide_ = OccluderList::Empty;

@@ -2,6 +2,7 @@
 #ifndef po_SweepTexels_h
 #define po_SweepTexels_h
 
+#include "BakeSettings.h"
 #include "SweepDirections.h"
 #include "Vec3.h"
 
@@ -38,6 +39,8 @@ class SweepTexels
 {
 public:
   static constexpr std::uint32_t Empty = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::size_t MostSlots = static_cast<std::size_t>(
+    BakeSettings::MaximumTextureResolution * BakeSettings::MaximumTextureResolution);
 
   explicit SweepTexels(int textureResolution);
 

@@ -13,84 +13,108 @@
 HWY_BEFORE_NAMESPACE();
 namespace po::HWY_NAMESPACE
 {
-/// The texels of one vector, and which of them an occluder hides.
-class Unbounded
+/// The texels of one vector, and which of them occluders hide.
+class TexelVector
 {
 public:
-  Unbounded(Floats d, const FacingTexels& facing, std::size_t i)
-    : u_(hn::LoadU(d, facing.u.data() + i))
-    , v_(hn::LoadU(d, facing.v.data() + i))
-    , w_(hn::LoadU(d, facing.w.data() + i))
+  TexelVector(Floats d, const FacingTexels& facing, std::size_t slot)
+    : u_(hn::LoadU(d, facing.u.data() + slot))
+    , v_(hn::LoadU(d, facing.v.data() + slot))
+    , w_(hn::LoadU(d, facing.w.data() + slot))
+    , square_(hn::MulAdd(u_, u_, hn::Mul(v_, v_)))
+    , hidden_(noLanes(d))
   {
   }
 
-  [[nodiscard]] hn::Mask<Floats> hidden(Floats d, const OccluderBatch& o, std::size_t k) const
+  /// The points that lie within the disc and below the centre of an occluder count as hidden.
+  void hide(Floats d, const OccluderBatch& o, std::size_t k)
   {
-    const auto du = hn::Sub(u_, hn::Set(d, o.a[k]));
-    const auto dv = hn::Sub(v_, hn::Set(d, o.b[k]));
-    const auto square = hn::MulAdd(du, du, hn::Mul(dv, dv));
-    return hn::And(
-      hn::Lt(square, hn::Set(d, o.squaredRadius[k])), hn::Lt(w_, hn::Set(d, o.height[k])));
+    const auto within = hn::Gt(across(d, o, k), hn::Set(d, o.power[k]));
+    hidden_ = hn::Or(hidden_, hn::And(within, hn::Lt(w_, hn::Set(d, o.height[k]))));
   }
 
-private:
-  hn::Vec<Floats> u_, v_, w_;
-};
-
-/// The same where light is blocked only within a distance.
-class Bounded
-{
-public:
-  Bounded(Floats d, const FacingTexels& facing, std::size_t i, float distance)
-    : u_(hn::LoadU(d, facing.u.data() + i))
-    , v_(hn::LoadU(d, facing.v.data() + i))
-    , w_(hn::LoadU(d, facing.w.data() + i))
-    , distance_(hn::Set(d, distance))
-  {
-  }
-
-  [[nodiscard]] hn::Mask<Floats> hidden(Floats d, const OccluderBatch& o, std::size_t k) const
+  /// The same where light is blocked only within a distance.
+  void hideWithin(Floats d, const OccluderBatch& o, std::size_t k, hn::Vec<Floats> distance)
   {
     const auto zero = hn::Zero(d);
-    const auto du = hn::Sub(u_, hn::Set(d, o.a[k]));
-    const auto dv = hn::Sub(v_, hn::Set(d, o.b[k]));
-    const auto square = hn::MulAdd(du, du, hn::Mul(dv, dv));
-    const auto chord = hn::Sub(hn::Set(d, o.squaredRadius[k]), square);
+    // The square of half of the light's way through the occluder.
+    const auto chord = hn::Sub(across(d, o, k), hn::Set(d, o.power[k]));
     const auto climb = hn::Sub(hn::Set(d, o.height[k]), w_);
-    // The light enters the occluder at climb - sqrt(chord) above the point.
     const auto entry = hn::Sub(climb, hn::Sqrt(hn::Max(chord, zero)));
-    return hn::And(hn::And(hn::Gt(chord, zero), hn::Gt(climb, zero)), hn::Lt(entry, distance_));
+    hidden_ = hn::Or(
+      hidden_, hn::And(hn::And(hn::Gt(chord, zero), hn::Gt(climb, zero)), hn::Lt(entry, distance)));
   }
 
+  [[nodiscard]] unsigned hidden(Floats d) const { return bitsOf(d, hidden_); }
+
 private:
-  hn::Vec<Floats> u_, v_, w_, distance_;
+  [[nodiscard]] hn::Vec<Floats> across(Floats d, const OccluderBatch& o, std::size_t k) const
+  {
+    return hn::MulAdd(
+      u_, hn::Set(d, o.twiceA[k]), hn::MulSub(v_, hn::Set(d, o.twiceB[k]), square_));
+  }
+
+  hn::Vec<Floats> u_, v_, w_, square_;
+  hn::Mask<Floats> hidden_;
 };
 
-/// @param more that Texels takes beside the texels
-template <typename Texels, typename... Parameters>
+/// Slots with which the vectors begin that hold texels of which bits are set.
+class OpenVectors
+{
+public:
+  OpenVectors(Floats d, const FacingTexels& facing, const GroupMask* mask)
+  {
+    const auto lanes = static_cast<unsigned>(hn::Lanes(d));
+    // Nobody could guess which groups are open: no branch depends on it.
+    for (const std::uint32_t g : facing.facingGroups)
+    {
+      for (unsigned lane = 0; lane < GroupSize; lane += lanes)
+      {
+        slots_[count_] = static_cast<std::uint16_t>(g * GroupSize + lane);
+        count_ += (unsigned(mask[g]) >> lane & ((1u << lanes) - 1)) != 0 ? 1 : 0;
+      }
+    }
+    // An odd one is its own partner.
+    slots_[count_] = count_ > 0 ? slots_[count_ - 1] : 0;
+  }
+
+  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] std::size_t slot(std::size_t i) const { return slots_[i]; }
+
+private:
+  std::size_t count_ = 0;
+  std::array<std::uint16_t, SweepTexels::MostSlots + 1> slots_; ///< room for one slot each
+};
+
+inline void clearBits(GroupMask* mask, std::size_t slot, unsigned hidden)
+{
+  GroupMask& group = mask[slot / GroupSize];
+  group = static_cast<GroupMask>(group & ~(hidden << slot % GroupSize));
+}
+
+/// @param test calls hide() or hideWithin() of a TexelVector for an occluder
+template <typename Test>
 bool hideBy(
-  const FacingTexels& facing, const OccluderBatch& occluders, GroupMask* mask, Parameters... more)
+  const FacingTexels& facing, const OccluderBatch& occluders, GroupMask* mask, const Test& test)
 {
   const Floats d;
+  const OpenVectors vectors(d, facing, mask);
+  // Two at a time do not wait for each other.
+  for (std::size_t i = 0; i < vectors.count(); i += 2)
+  {
+    TexelVector first(d, facing, vectors.slot(i));
+    TexelVector second(d, facing, vectors.slot(i + 1));
+    for (std::size_t k = 0; k < occluders.count; ++k)
+    {
+      test(first, k);
+      test(second, k);
+    }
+    clearBits(mask, vectors.slot(i), first.hidden(d));
+    clearBits(mask, vectors.slot(i + 1), second.hidden(d));
+  }
   unsigned left = 0;
   for (const std::uint32_t g : facing.facingGroups)
   {
-    if (mask[g] == 0)
-    {
-      continue;
-    }
-    unsigned hidden = 0;
-    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
-    {
-      const Texels texels(d, facing, g * GroupSize + lane, more...);
-      auto lanes = noLanes(d);
-      for (std::size_t k = 0; k < occluders.count; ++k)
-      {
-        lanes = hn::Or(lanes, texels.hidden(d, occluders, k));
-      }
-      hidden |= bitsOf(d, lanes) << lane;
-    }
-    mask[g] = static_cast<GroupMask>(mask[g] & ~hidden);
     left |= mask[g];
   }
   return left != 0;
@@ -98,13 +122,18 @@ bool hideBy(
 
 bool hide(const FacingTexels& facing, const OccluderBatch& occluders, GroupMask* mask)
 {
-  return hideBy<Unbounded>(facing, occluders, mask);
+  const Floats d;
+  return hideBy(facing, occluders, mask,
+    [&](TexelVector& texels, std::size_t k) { texels.hide(d, occluders, k); });
 }
 
 bool hideWithin(
   const FacingTexels& facing, const OccluderBatch& occluders, float distance, GroupMask* mask)
 {
-  return hideBy<Bounded>(facing, occluders, mask, distance);
+  const Floats d;
+  const auto most = hn::Set(d, distance);
+  return hideBy(facing, occluders, mask,
+    [&](TexelVector& texels, std::size_t k) { texels.hideWithin(d, occluders, k, most); });
 }
 
 /// A vector of a chunk's occluders, seen from a receiver.
@@ -122,12 +151,10 @@ public:
   }
 
   /// Those whose disc meets the receiver's.
-  /// @param share in the square of the distance across at which the discs touch: less than 1 for
-  /// those right in front only
-  [[nodiscard]] hn::Mask<Floats> meet(Floats d, float share) const
+  [[nodiscard]] hn::Mask<Floats> meet(Floats d) const
   {
     const auto touch = hn::Add(radius_, hn::Set(d, receiver_.radius));
-    return hn::Lt(gap_, hn::Mul(hn::Mul(touch, touch), hn::Set(d, share)));
+    return hn::Lt(gap_, hn::Mul(touch, touch));
   }
 
   /// Those that hide all of the receiver: the disc holds the receiver's, the centre is above it.
@@ -149,12 +176,13 @@ public:
   void addTo(OccluderBatch& batch, Floats d, hn::Mask<Floats> chosen) const
   {
     const auto scale = hn::Set(d, 1 / receiver_.radius);
-    const auto radius = hn::Mul(radius_, scale);
+    const auto twice = hn::Add(scale, scale);
+    const auto power = hn::Mul(hn::NegMulAdd(radius_, radius_, gap_), hn::Mul(scale, scale));
     const std::size_t end = batch.count;
-    hn::StoreU(hn::Compress(hn::Mul(dx_, scale), chosen), d, batch.a.data() + end);
-    hn::StoreU(hn::Compress(hn::Mul(dy_, scale), chosen), d, batch.b.data() + end);
+    hn::StoreU(hn::Compress(hn::Mul(dx_, twice), chosen), d, batch.twiceA.data() + end);
+    hn::StoreU(hn::Compress(hn::Mul(dy_, twice), chosen), d, batch.twiceB.data() + end);
     hn::StoreU(hn::Compress(hn::Mul(dz_, scale), chosen), d, batch.height.data() + end);
-    hn::StoreU(hn::Compress(hn::Mul(radius, radius), chosen), d, batch.squaredRadius.data() + end);
+    hn::StoreU(hn::Compress(power, chosen), d, batch.power.data() + end);
     batch.count += hn::CountTrue(d, chosen);
   }
 
@@ -163,30 +191,19 @@ private:
   hn::Vec<Floats> dx_, dy_, dz_, radius_, gap_;
 };
 
-constexpr float AllThatMeet = 1;
-constexpr float RightInFront = 0.25f;
-
-/// Gathers the occluders of a chunk that meet a receiver, those right in front, which hide most,
-/// first; false if one of them hides all of it.
+/// Gathers the occluders of a chunk that meet a receiver; false if one of them hides all of it.
 bool gather(const OccluderChunk& chunk, const ProjectedSphere& receiver, OccluderBatch& batch)
 {
   const Floats d;
-  for (const bool inFront : { true, false })
+  for (std::size_t lane = 0; lane < OccluderChunk::Size; lane += hn::Lanes(d))
   {
-    for (std::size_t lane = 0; lane < OccluderChunk::Size; lane += hn::Lanes(d))
+    const OccluderLanes occluders(d, chunk, lane, receiver);
+    const auto chosen = occluders.meet(d);
+    if (!hn::AllFalse(d, hn::And(chosen, occluders.cover(d))))
     {
-      const OccluderLanes occluders(d, chunk, lane, receiver);
-      const auto near = occluders.meet(d, RightInFront);
-      if (inFront && !hn::AllFalse(d, hn::And(near, occluders.cover(d))))
-      {
-        return false;
-      }
-      const auto chosen = inFront ? near : hn::AndNot(near, occluders.meet(d, AllThatMeet));
-      if (!hn::AllFalse(d, chosen))
-      {
-        occluders.addTo(batch, d, chosen);
-      }
+      return false;
     }
+    occluders.addTo(batch, d, chosen);
   }
   return true;
 }
@@ -219,7 +236,7 @@ bool behindWithin(const FacingTexels& facing, OccluderList occluders,
     for (std::size_t lane = 0; lane < OccluderChunk::Size; lane += hn::Lanes(d))
     {
       const OccluderLanes lanes(d, chunk, lane, receiver);
-      const auto chosen = hn::And(lanes.meet(d, AllThatMeet), lanes.reach(d, scaled));
+      const auto chosen = hn::And(lanes.meet(d), lanes.reach(d, scaled));
       if (!hn::AllFalse(d, chosen))
       {
         lanes.addTo(batch, d, chosen);

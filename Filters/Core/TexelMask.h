@@ -29,14 +29,16 @@ struct OccluderBatch
   static constexpr std::size_t Capacity = Most + 16;
 
   std::size_t count = 0;
-  std::array<float, Capacity> a, b, height, squaredRadius;
+  /// A point (u, v) is within the disc where 2 a u + 2 b v - (u^2 + v^2) > a^2 + b^2 - R^2: half
+  /// the work of (u - a)^2 + (v - b)^2 < R^2, at the same precision.
+  std::array<float, Capacity> twiceA, twiceB, height, power;
 
   void add(const Occluder& o)
   {
-    a[count] = o.a;
-    b[count] = o.b;
+    twiceA[count] = 2 * o.a;
+    twiceB[count] = 2 * o.b;
     height[count] = o.height;
-    squaredRadius[count] = o.squaredRadius;
+    power[count] = o.a * o.a + o.b * o.b - o.squaredRadius;
     ++count;
   }
 };

@@ -5,43 +5,56 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace po
 {
+namespace
+{
+/// So many visits before the one that needs it something is fetched from memory.
+constexpr std::size_t VisitsAhead = 4;
+}
+
 void TileSweep::run(const DepthTile& tile, DepthOrder& order, const SweepScene::Band& band,
   const SweptDirection& direction, SeenMarks& seen)
 {
   band_ = band;
   cells_.begin(tile, band);
-  const std::size_t slabs = order.slabs();
-  const auto slabAt = [&](std::size_t i)
-  { return order.slab(direction.upward ? slabs - 1 - i : i); };
-  const auto forEach = [&direction](const DepthOrder::Slab& slab, const auto& action)
+  listVisited(order, direction);
+  const auto indexAt = [this](std::size_t i)
+  { return visited_[std::min(i, visited_.size() - 1)]->sphere.index; };
+  for (std::size_t i = 0; i < visited_.size(); ++i)
   {
-    const auto count = static_cast<std::size_t>(slab.last - slab.first);
-    for (std::size_t k = 0; k < count; ++k)
+    records_.prefetch(indexAt(i + 2 * VisitsAhead));
+    records_.prefetchRims(indexAt(i + VisitsAhead));
+    visit(*visited_[i], direction, seen);
+  }
+  visits_[direction.full ? 1 : 0] += visited_.size();
+}
+
+/// Those that are not known to be hidden, from the light downward.
+void TileSweep::listVisited(DepthOrder& order, const SweptDirection& direction)
+{
+  visited_.clear();
+  const auto add = [&](const TileSphere& sphere)
+  {
+    if ((sphere.hidden & direction.bit()) == 0)
     {
-      const TileSphere& sphere =
-        direction.upward ? slab.last[-1 - static_cast<std::ptrdiff_t>(k)] : slab.first[k];
-      if ((sphere.hidden & direction.bit()) == 0)
-      {
-        action(sphere);
-      }
+      visited_.push_back(&sphere);
     }
   };
-  DepthOrder::Slab next = slabAt(0);
-  for (std::size_t i = 0; i < slabs; ++i)
+  for (std::size_t i = 0; i < order.slabs(); ++i)
   {
-    const DepthOrder::Slab slab = next;
-    next = slabAt(std::min(i + 1, slabs - 1));
-    forEach(next, [this](const TileSphere& s) { records_.prefetch(s.sphere.index); });
-    forEach(slab, [this](const TileSphere& s) { records_.prefetchRims(s.sphere.index); });
-    forEach(slab,
-      [&](const TileSphere& s)
-      {
-        ++visits_[direction.full ? 1 : 0];
-        visit(s, direction, seen);
-      });
+    const DepthOrder::Slab slab = order.slab(direction.upward ? order.slabs() - 1 - i : i);
+    if (direction.upward)
+    {
+      std::for_each(
+        std::make_reverse_iterator(slab.last), std::make_reverse_iterator(slab.first), add);
+    }
+    else
+    {
+      std::for_each(slab.first, slab.last, add);
+    }
   }
 }
 
@@ -50,17 +63,9 @@ void TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
   const bool bounded = std::isfinite(direction.distance);
   ProjectedSphere sphere = s.sphere;
   sphere.z = direction.upward ? sphere.z : -sphere.z;
-  if (s.role == TileRole::Other)
+  if (s.receives)
   {
-    const bool hidden = sphere.index < band_.first && (seen[sphere.index] & direction.bit()) == 0;
-    if (hidden && !bounded)
-    {
-      return;
-    }
-  }
-  else
-  {
-    const Sight sight = look(s, sphere, direction);
+    const Sight sight = look(sphere, direction);
     if (sight == Sight::Nothing && !bounded)
     {
       return;
@@ -70,22 +75,20 @@ void TileSweep::visit(const TileSphere& s, const SweptDirection& direction, Seen
       seen[sphere.index] = static_cast<std::uint8_t>(seen[sphere.index] | direction.bit());
     }
   }
+  else if (sphere.index < band_.first && (seen[sphere.index] & direction.bit()) == 0 && !bounded)
+  {
+    return;
+  }
   cells_.insert(sphere);
 }
 
-TileSweep::Sight TileSweep::look(
-  const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction)
+TileSweep::Sight TileSweep::look(const ProjectedSphere& sphere, const SweptDirection& direction)
 {
   std::copy(direction.facing.facing.begin(), direction.facing.facing.end(), mask_.begin());
   if (!records_.clearCovered(sphere.index, mask_.data()) ||
     !passes(cells_.cellOf(sphere), sphere, direction) || !passes(cells_.wide(), sphere, direction))
   {
     return Sight::Nothing;
-  }
-  // Others occlude, whether their points lie inside others or not.
-  if (tileSphere.role != TileRole::Receiver)
-  {
-    return Sight::Occluder;
   }
   records_.prefetchMasks(sphere.index, direction.axis);
   if (!records_.clearInside(sphere.index, direction.pattern, mask_.data()))

@@ -37,10 +37,11 @@ struct SweptDirection
 /// Finds what of a tile's receivers is seen along a direction, from the light downward.
 ///
 /// A sphere starts with the texels that face the light; each occluder met before clears those that
-/// lie behind it. A sphere that shows no texel is no occluder: what it hides is hidden by those in
-/// front of it, up to slivers that no point of its texels lies in. One that shows points inside
+/// lie behind it. A receiver that shows no texel is no occluder: what it hides is hidden by those
+/// in front of it, up to slivers that no point of its texels lies in. One that shows points inside
 /// others alone is an occluder: it stops light that came through such slivers. Where the distance
-/// is bounded all spheres occlude.
+/// is bounded all spheres occlude, and so do those around the tile: to find out what shows of them
+/// would cost more than it spares.
 class TileSweep
 {
 public:
@@ -63,17 +64,17 @@ public:
   [[nodiscard]] std::uint64_t visits(bool full) const { return visits_[full ? 1 : 0]; }
 
 private:
-  /// What a direction sees of a sphere.
+  /// What a direction sees of a receiver.
   enum class Sight
   {
     Nothing,
-    Occluder, ///< of a receiver points inside others alone, or something of a sphere that is none
-    Surface   ///< of a receiver
+    Occluder, ///< points inside others alone
+    Surface
   };
 
+  void listVisited(DepthOrder& order, const SweptDirection& direction);
   void visit(const TileSphere& sphere, const SweptDirection& direction, SeenMarks& seen);
-  [[nodiscard]] Sight look(
-    const TileSphere& tileSphere, const ProjectedSphere& sphere, const SweptDirection& direction);
+  [[nodiscard]] Sight look(const ProjectedSphere& sphere, const SweptDirection& direction);
   void keep(unsigned sphere, const SweptDirection& direction);
   [[nodiscard]] bool passes(
     OccluderList occluders, const ProjectedSphere& receiver, const SweptDirection& direction);
@@ -82,7 +83,8 @@ private:
   SweepDivision* division_;
   OccluderCells cells_;
   SweepScene::Band band_{};
-  std::vector<GroupMask> mask_; ///< of the sphere at hand
+  std::vector<const TileSphere*> visited_; ///< in the direction at hand
+  std::vector<GroupMask> mask_;            ///< of the sphere at hand
   std::array<std::uint64_t, 2> visits_{};
 };
 }
