@@ -2,8 +2,9 @@
 #include "ClosedCells.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 
 // Highway compiles this file once for each instruction set (SSE4, AVX2, AVX-512, NEON, ...) and
 // chooses when it runs.
@@ -25,9 +26,12 @@ constexpr float Open = -HUGE_VALF;
 /// Cells to each side that a receiver may reach from the cell of its centre.
 constexpr int Reach = ClosedCells::CellsPerReach;
 
+/// In cells: smaller discs cover none.
+constexpr float LeastRadius = 0.7f;
+
 /// How much lower than its highest point a receiver is in cells so far away, at least, along one of
 /// the two axes: see ClosedCells::finish().
-using Drops = std::array<float, 2 * Reach + 1>;
+using Drops = std::array<float, Reach + 1>;
 
 [[maybe_unused]] BlockBits firstBits(std::size_t count)
 {
@@ -42,9 +46,8 @@ namespace po::HWY_NAMESPACE
 {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using Cells = hn::CappedTag<float, 8>;
-using Columns = hn::RebindToSigned<Cells>;
-constexpr int MostRows = 8;
+/// As many columns as most discs reach.
+using Cells = hn::CappedTag<float, 2 * Reach>;
 
 /// In cells.
 struct CellDisc
@@ -52,112 +55,77 @@ struct CellDisc
   float x, y, radius, z;
 };
 
-/// Columns [left, right) of some rows.
-struct RowSpans
+/// Columns [left, right) of rows [bottom, top).
+struct CellRange
 {
-  HWY_ALIGN std::int32_t left[MostRows];
-  HWY_ALIGN std::int32_t right[MostRows];
+  int left, right, bottom, top;
 };
 
-/// The cells that a disc covers wholly, of as many rows as a vector has lanes.
-inline void findSpans(const CellDisc& disc, int row, int columns, RowSpans& spans)
+/// What a disc covers wholly lies within. One range serves all that are as large as receivers and
+/// lie inside: it takes less time to look at a few cells more than to guess how many there are.
+inline CellRange rangeOf(const CellDisc& disc, const CellGrid& grid)
 {
-  const Cells d;
-  const Columns di;
-  const auto zero = hn::Zero(d);
-  const auto end = hn::Set(d, static_cast<float>(columns));
+  const auto isInside = [](float place, int cells)
+  { return place >= Reach && place < static_cast<float>(cells - Reach); };
+  if (disc.radius <= Reach && isInside(disc.x, grid.columns) && isInside(disc.y, grid.rows))
+  {
+    const int column = static_cast<int>(disc.x);
+    const int row = static_cast<int>(disc.y);
+    return { column - Reach + 1, column + Reach, row - Reach + 1, row + Reach };
+  }
   // A large disc may reach beyond all integers.
-  const auto within = [&](hn::Vec<Cells> place)
-  { return hn::ConvertTo(di, hn::Min(hn::Max(place, zero), end)); };
-  const auto x = hn::Set(d, disc.x);
-  const auto y = hn::Set(d, disc.y);
-  const auto edge = hn::Iota(d, static_cast<float>(row));
-  const auto toTop = hn::Sub(hn::Add(edge, hn::Set(d, 1.0f)), y);
-  const auto dy = hn::Max(hn::Sub(y, edge), toTop); // to the farther edge of the row
-  const auto square = hn::Sub(hn::Set(d, disc.radius * disc.radius), hn::Mul(dy, dy));
-  const auto halfWidth = hn::Sqrt(hn::Max(square, zero));
-  const auto first = hn::Sub(x, halfWidth);
-  const auto begins = hn::RebindMask(di, hn::Gt(first, zero));
-  const auto next = hn::Add(within(first), hn::Set(di, 1));
-  hn::Store(hn::IfThenElseZero(begins, next), di, spans.left);
-  hn::Store(within(hn::Add(x, halfWidth)), di, spans.right);
+  const auto limit = [](float place, int end)
+  { return static_cast<int>(std::clamp(place, 0.0f, static_cast<float>(end))); };
+  return { limit(disc.x - disc.radius, grid.columns), limit(disc.x + disc.radius, grid.columns),
+    limit(disc.y - disc.radius, grid.rows), limit(disc.y + disc.radius, grid.rows) };
 }
 
-/// Raises heights of cells that are lower, of the lanes that are set.
-inline void raise(float* cells, float height, hn::Mask<Cells> lanes)
+/// Distances, squared, of a place from the farther edges of columns or rows.
+inline hn::Vec<Cells> squaresToEdges(float place, int first)
+{
+  const Cells d;
+  const auto middle = hn::Iota(d, static_cast<float>(first) + 0.5f);
+  const auto distance = hn::Add(hn::Abs(hn::Sub(middle, hn::Set(d, place))), hn::Set(d, 0.5f));
+  return hn::Mul(distance, distance);
+}
+
+inline void raise(float* cells, hn::Vec<Cells> height, hn::Mask<Cells> covered)
 {
   const Cells d;
   const auto known = hn::LoadU(d, cells);
-  const auto raised = hn::And(lanes, hn::Lt(known, hn::Set(d, height)));
-  if (!hn::AllFalse(d, raised))
-  {
-    hn::StoreU(hn::IfThenElse(raised, hn::Set(d, height), known), d, cells);
-  }
+  hn::StoreU(hn::IfThenElse(covered, hn::Max(known, height), known), d, cells);
 }
 
+/// A cell is covered if its farthest corner is.
 inline void closeDisc(const CellDisc& disc, const CellGrid& grid, float* up, float* down)
 {
   const Cells d;
-  const auto limit = [](float place, int end) { return std::clamp(place, 0.0f, float(end)); };
-  const float lowest = disc.y - disc.radius;
-  const int bottom = lowest > 0 ? static_cast<int>(limit(lowest, grid.rows)) + 1 : 0;
-  const int top = static_cast<int>(limit(disc.y + disc.radius, grid.rows));
-  RowSpans spans;
-  for (int first = bottom; first < top; first += static_cast<int>(hn::Lanes(d)))
+  const int lanes = static_cast<int>(hn::Lanes(d));
+  const CellRange range = rangeOf(disc, grid);
+  const auto z = hn::Set(d, disc.z);
+  const auto square = hn::Set(d, disc.radius * disc.radius);
+  HWY_ALIGN float mostAcross[hn::MaxLanes(d)]; // of each row
+  for (int first = range.bottom; first < range.top; first += lanes)
   {
-    findSpans(disc, first, grid.columns, spans);
-    const int count = std::min(top - first, static_cast<int>(hn::Lanes(d)));
-    for (int i = 0; i < count; ++i)
+    hn::Store(hn::Sub(square, squaresToEdges(disc.y, first)), d, mostAcross);
+    const int count = std::min(range.top - first, lanes);
+    for (int column = range.left; column < range.right; column += lanes)
     {
-      const int row = (first + i) * grid.columns;
-      for (int column = spans.left[i]; column < spans.right[i];
-           column += static_cast<int>(hn::Lanes(d)))
+      const auto present = hn::FirstN(d, static_cast<std::size_t>(grid.columns - column));
+      const auto across =
+        hn::IfThenElse(present, squaresToEdges(disc.x, column), hn::Set(d, HUGE_VALF));
+      for (int i = 0; i < count; ++i)
       {
-        const int lanes = std::min(spans.right[i] - column, static_cast<int>(hn::Lanes(d)));
-        const auto covered = hn::FirstN(d, static_cast<std::size_t>(lanes));
-        raise(up + row + column, disc.z, covered);
-        raise(down + row + column, -disc.z, covered);
+        const auto covered = hn::Le(across, hn::Set(d, mostAcross[i]));
+        const std::ptrdiff_t cell = (first + i) * grid.columns + column;
+        raise(up + cell, z, covered);
+        raise(down + cell, hn::Neg(z), covered);
       }
     }
   }
 }
 
-/// The same for a disc of the size of the stamps. Those that may reach beyond the grid close
-/// nothing: all receivers are farther inside.
-inline void stampDisc(
-  const CellDisc& disc, const DiscStamps& stamps, const CellGrid& grid, float* up, float* down)
-{
-  constexpr int half = DiscStamps::Side / 2;
-  const auto isWithin = [](float place, int cells)
-  { return place >= half && place < static_cast<float>(cells - half); };
-  if (!isWithin(disc.x, grid.columns) || !isWithin(disc.y, grid.rows))
-  {
-    return;
-  }
-  const Cells d;
-  const auto column = static_cast<int>(disc.x);
-  const auto row = static_cast<int>(disc.y);
-  const auto phase = [](float place, int cell)
-  { return static_cast<int>((place - static_cast<float>(cell)) * DiscStamps::Phases); };
-  const float* stamp = stamps.at(phase(disc.x, column), phase(disc.y, row));
-  const std::ptrdiff_t corner = (row - half) * grid.columns + column - half;
-  const auto z = hn::Set(d, disc.z);
-  const auto raise = [d](float* cells, hn::Vec<Cells> heights)
-  { hn::StoreU(hn::Max(hn::LoadU(d, cells), heights), d, cells); };
-  for (int i = 0; i < DiscStamps::Side; ++i)
-  {
-    for (std::size_t lane = 0; lane < DiscStamps::Stride; lane += hn::Lanes(d))
-    {
-      const auto covered = hn::LoadU(d, stamp + i * DiscStamps::Stride + lane);
-      const auto cell = corner + i * grid.columns + static_cast<std::ptrdiff_t>(lane);
-      raise(up + cell, hn::Add(covered, z));
-      raise(down + cell, hn::Sub(covered, z));
-    }
-  }
-}
-
-void closeAll(const ProjectedBlock& spheres, const CellGrid& grid, const DiscStamps& stamps,
-  float* up, float* down)
+void closeAll(const ProjectedBlock& spheres, const CellGrid& grid, float* up, float* down)
 {
   for (std::size_t i = 0; i < spheres.count; ++i)
   {
@@ -165,11 +133,7 @@ void closeAll(const ProjectedBlock& spheres, const CellGrid& grid, const DiscSta
     const CellDisc disc{ (spheres.x[i] - grid.lowX) * grid.perCell,
       (spheres.y[i] - grid.lowY) * grid.perCell, spheres.radius[i] * grid.perCell * (1 - 1e-5f),
       spheres.z[i] };
-    if (stamps.fit(disc.radius))
-    {
-      stampDisc(disc, stamps, grid, up, down);
-    }
-    else
+    if (disc.radius >= LeastRadius)
     {
       closeDisc(disc, grid, up, down);
     }
@@ -184,12 +148,14 @@ inline void lowestAround(
   const Floats d;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d))
   {
-    auto lowest = hn::Set(d, HUGE_VALF);
-    for (int k = -Reach; k <= Reach; ++k)
+    const float* middle = heights + i;
+    auto lowest = hn::LoadU(d, middle);
+    for (int k = 1; k <= Reach; ++k)
     {
-      const auto drop = hn::Set(d, drops[static_cast<std::size_t>(k + Reach)]);
-      const float* neighbours = heights + static_cast<std::ptrdiff_t>(i) + k * step;
-      lowest = hn::Min(lowest, hn::Add(hn::LoadU(d, neighbours), drop));
+      const auto before = hn::LoadU(d, middle - k * step);
+      const auto behind = hn::LoadU(d, middle + k * step);
+      const auto drop = hn::Set(d, drops[static_cast<std::size_t>(k)]);
+      lowest = hn::Min(lowest, hn::Add(hn::Min(before, behind), drop));
     }
     hn::StoreU(lowest, d, result + i);
   }
@@ -265,45 +231,9 @@ namespace
 constexpr float MostCells = 512;       ///< along a side
 constexpr float Margin = 4;            ///< in reaches: halo spheres, two away, reach one farther
 constexpr std::size_t BeyondLast = 32; ///< what vectors reach
-
-/// Does a disc about (x, y) hold a square cell?
-bool holds(float x, float y, float radius, int column, int row)
-{
-  const auto farther = [](float place, int cell)
-  {
-    const auto low = static_cast<float>(cell);
-    return std::max(std::abs(place - low), std::abs(place - low - 1));
-  };
-  const float dx = farther(x, column);
-  const float dy = farther(y, row);
-  return dx * dx + dy * dy <= radius * radius;
-}
 }
 
-void DiscStamps::build(float radius)
-{
-  if (radius == radius_)
-  {
-    return;
-  }
-  radius_ = radius;
-  // The centre may be off the middle of its phase.
-  const float least = radius - std::sqrt(0.5f) / Phases;
-  const auto middle = [](int phase)
-  { return static_cast<float>(Side / 2) + (static_cast<float>(phase) + 0.5f) / Phases; };
-  float* cell = cells_.data();
-  for (int phase = 0; phase < Phases * Phases; ++phase)
-  {
-    for (int i = 0; i < Side * Stride; ++i, ++cell)
-    {
-      const float x = middle(phase % Phases);
-      const float y = middle(phase / Phases);
-      *cell = holds(x, y, least, i % Stride, i / Stride) ? 0 : Open;
-    }
-  }
-}
-
-void ClosedCells::begin(const PatchArea& area, float smallest, float reach)
+void ClosedCells::begin(const PatchArea& area, float reach)
 {
   const float width = area.highX - area.lowX + 2 * Margin * reach;
   const float height = area.highY - area.lowY + 2 * Margin * reach;
@@ -315,7 +245,6 @@ void ClosedCells::begin(const PatchArea& area, float smallest, float reach)
   { return std::max(static_cast<int>(std::ceil(length / cell)), 2 * Reach + 1); };
   grid_ = { area.lowX - Margin * reach, area.lowY - Margin * reach, cell, 1 / cell, along(width),
     along(height) };
-  stamps_.build(smallest * grid_.perCell * (1 - 1e-5f));
   const std::size_t cells =
     static_cast<std::size_t>(grid_.columns) * static_cast<std::size_t>(grid_.rows) + BeyondLast;
   for (CellHeights* heights : { &up_, &down_ })
@@ -328,7 +257,7 @@ void ClosedCells::begin(const PatchArea& area, float smallest, float reach)
 
 void ClosedCells::close(const ProjectedBlock& spheres)
 {
-  HWY_DYNAMIC_DISPATCH(closeAll)(spheres, grid_, stamps_, up_.closed.data(), down_.closed.data());
+  HWY_DYNAMIC_DISPATCH(closeAll)(spheres, grid_, up_.closed.data(), down_.closed.data());
 }
 
 /// Finds for every cell how high the highest point of a receiver may be, whose centre lies there,
@@ -339,11 +268,10 @@ void ClosedCells::close(const ProjectedBlock& spheres)
 void ClosedCells::finish()
 {
   Drops drops;
-  for (int k = -Reach; k <= Reach; ++k)
+  for (int k = 0; k <= Reach; ++k)
   {
-    const float gap =
-      std::min(static_cast<float>(std::max(std::abs(k) - 1, 0)) * grid_.cell, reach_);
-    drops[static_cast<std::size_t>(k + Reach)] = gap * gap / (2 * reach_);
+    const float gap = std::min(static_cast<float>(std::max(k - 1, 0)) * grid_.cell, reach_);
+    drops[static_cast<std::size_t>(k)] = gap * gap / (2 * reach_);
   }
   for (CellHeights* heights : { &up_, &down_ })
   {

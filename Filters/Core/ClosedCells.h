@@ -5,7 +5,6 @@
 #include "BlockProjection.h"
 #include "DepthTiles.h"
 
-#include <array>
 #include <vector>
 
 namespace po
@@ -25,35 +24,6 @@ struct CellGrid
   int columns = 0, rows = 0;
 };
 
-/// Which cells discs of one radius cover, by where in its cell the centre lies: spheres of equal
-/// size, of which a set has most, are closed by looking that up.
-class DiscStamps
-{
-public:
-  static constexpr int Phases = 8; ///< places along each side of a cell
-  static constexpr int Side = 7;   ///< rows, and columns, that a disc may cover
-  static constexpr int Stride = 8; ///< of the rows
-
-  /// @param radius of the smallest disc, in cells; those that are larger by up to a hundredth count
-  /// as equal
-  void build(float radius);
-
-  [[nodiscard]] bool fit(float radius) const
-  {
-    return radius >= radius_ && radius <= 1.01f * radius_;
-  }
-  /// [Side][Stride] 0 for the cells that are covered, -infinity for others, from the cell on that
-  /// is Side / 2 before that of the centre, in both directions.
-  [[nodiscard]] const float* at(int column, int row) const
-  {
-    return cells_.data() + (row * Phases + column) * Side * Stride;
-  }
-
-private:
-  float radius_ = 0;
-  std::array<float, Phases * Phases * Side * Stride> cells_{};
-};
-
 /// A bit for each sphere of a block: what is hidden when the light comes from where z grows, and
 /// when it comes from the other side.
 struct HiddenSpheres
@@ -70,8 +40,8 @@ public:
   static constexpr int CellsPerReach = 4;
 
   /// Opens all cells and lays them over a patch.
-  /// @param smallest, reach the radii of the smallest and the largest receiver
-  void begin(const PatchArea& area, float smallest, float reach);
+  /// @param reach the radius of the largest receiver
+  void begin(const PatchArea& area, float reach);
 
   /// Closes what spheres cover, in any order.
   void close(const ProjectedBlock& spheres);
@@ -85,7 +55,6 @@ public:
 private:
   CellGrid grid_;
   float reach_ = 0;
-  DiscStamps stamps_;
   CellHeights up_, down_;
   std::vector<float> alongRows_;
 };

@@ -74,10 +74,10 @@ void TileFiller::findBlocks(const SweepScene::Band& band, const DepthTiles& tile
 }
 
 /// Spheres that were shown before close most cells. What is hidden then needs to close none: to
-/// close takes ten times as long as to find that out.
+/// close takes several times as long as to find that out.
 void TileFiller::closeCells(const SweepScene::Band& band, const DepthTiles& tiles)
 {
-  cells_.begin(tiles.area(), band.smallestRadius, band.largestRadius);
+  cells_.begin(tiles.area(), band.largestRadius);
   closeBy(band, [this](const NearBlock& block) { return shownOf(block); });
   if (&participants_.spheres != &participants_.shown)
   {
