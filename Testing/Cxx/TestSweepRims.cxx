@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What caps cover of the texels of a sweep.
+/// What caps cover of the texels of a sweep, and textures of what is left.
 
 #include "Constants.h"
+#include "FineTextures.h"
 #include "Random.h"
 #include "RimFinder.h"
 #include "TexelCaps.h"
@@ -140,6 +141,44 @@ TEST(TexelCaps, SumsAreThoseOfThePatternsOneByOne)
     EXPECT_EQ(sums.points, expected.points);
     EXPECT_EQ(sums.weights, expected.weights);
     EXPECT_EQ(sums.irradiance, expected.irradiance);
+  }
+}
+
+TEST(FineTextures, ValuesAreSharesOfTheOpenSumsTimesIrradiance)
+{
+  po::Random random(13, 0, 0);
+  for (const int resolution : { 12, 13, 14, 15, 16, 64 })
+  {
+    const po::SweepTexels texels(resolution);
+    const auto numbers = [&](double ofZero)
+    {
+      std::vector<float> result(texels.slots());
+      std::generate(result.begin(), result.end(),
+        [&]
+        { return std::max(0.0f, static_cast<float>((1 + ofZero) * random.uniform() - ofZero)); });
+      return result;
+    };
+    const std::vector<float> outside = numbers(0.5), irradiance = numbers(0), sums = numbers(0.5),
+                             weights = numbers(0.5);
+    const auto side = static_cast<std::size_t>(resolution);
+    std::vector<float> values(side * side, -1.0f);
+    std::vector<float> shares(values);
+    po::FineTextures(texels).fill(
+      { outside.data(), irradiance.data(), sums.data(), weights.data() }, values.data(),
+      shares.data());
+    for (std::size_t slot = 0; slot < texels.slots(); ++slot)
+    {
+      const std::uint32_t texel = texels.texelOfSlot(slot);
+      if (texel != po::SweepTexels::Empty)
+      {
+        const float share = weights[slot] > 0 ? outside[slot] : 0.0f;
+        const float value =
+          share > 0 ? std::min(sums[slot] / weights[slot], 1.0f) * irradiance[slot] : 0.0f;
+        EXPECT_EQ(shares[texel], share) << resolution << " " << slot;
+        EXPECT_EQ(values[texel], value) << resolution << " " << slot;
+      }
+    }
+    EXPECT_EQ(std::count(shares.begin(), shares.end(), -1.0f), 0);
   }
 }
 }
