@@ -1,44 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OverlapFinder.h"
 
-#include "BrickOrder.h"
+#include "SphereBoxes.h"
+
+#include <hwy/base.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
 
 namespace po
 {
-/// The spheres of a brick, in boxes of some that are near each other.
-struct SphereBoxes
-{
-  /// In a box. A hierarchy over single spheres would take more memory than these themselves, and
-  /// half a second to build for a million.
-  static constexpr std::size_t Spheres = 8;
-
-  const Brick* brick;
-  std::vector<unsigned> places; ///< box after box; empty: one after the other
-
-  [[nodiscard]] unsigned count() const
-  {
-    return static_cast<unsigned>((brick->count + Spheres - 1) / Spheres);
-  }
-
-  /// Calls action(place) for the spheres of a box.
-  template <typename Action>
-  void forEachIn(unsigned box, const Action& action) const
-  {
-    const std::size_t first = Spheres * box;
-    const std::size_t last = std::min(first + Spheres, brick->count);
-    for (std::size_t i = first; i < last; ++i)
-    {
-      action(places.empty() ? static_cast<unsigned>(i) : places[i]);
-    }
-  }
-};
-
 namespace
 {
 /// A box edge moved outward by two units in the last place of the largest term, so that rounding
@@ -55,17 +28,16 @@ void boxBounds(const RTCBoundsFunctionArguments* arguments)
   const auto& boxes = *static_cast<const SphereBoxes*>(arguments->geometryUserPtr);
   constexpr float infinity = std::numeric_limits<float>::infinity();
   RTCBounds box{ infinity, infinity, infinity, 0, -infinity, -infinity, -infinity, 0 };
-  boxes.forEachIn(arguments->primID,
-    [&](unsigned place)
-    {
-      const Sphere& s = boxes.brick->spheres[place];
-      box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
-      box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
-      box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
-      box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
-      box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
-      box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
-    });
+  for (std::size_t i = 0; i < boxes.spheresIn(arguments->primID); ++i)
+  {
+    const Sphere& s = boxes.sphere(arguments->primID, i);
+    box.lower_x = std::min(box.lower_x, outward(s.x, -s.radius));
+    box.lower_y = std::min(box.lower_y, outward(s.y, -s.radius));
+    box.lower_z = std::min(box.lower_z, outward(s.z, -s.radius));
+    box.upper_x = std::max(box.upper_x, outward(s.x, +s.radius));
+    box.upper_y = std::max(box.upper_y, outward(s.y, +s.radius));
+    box.upper_z = std::max(box.upper_z, outward(s.z, +s.radius));
+  }
   *arguments->bounds_o = box;
 }
 
@@ -96,22 +68,10 @@ struct Query
   template <typename Action>
   void forOthers(const RTCPointQueryFunctionArguments* arguments, Action action) const
   {
-    // Most are too far away: told in floats, for all at once, since they may be far apart in
-    // memory.
-    std::array<unsigned, SphereBoxes::Spheres> near{};
-    std::size_t count = 0;
-    boxes->forEachIn(arguments->primID,
-      [&](unsigned other)
-      {
-        const Sphere& sphere = boxes->brick->spheres[other];
-        const Vec3f offset = sphere.center() - place;
-        const float reach = (within + sphere.radius) * (1 + 1e-5f);
-        near[count] = other;
-        count += dot(offset, offset) <= reach * reach ? 1 : 0;
-      });
-    for (std::size_t i = 0; i < count; ++i)
+    const unsigned box = arguments->primID;
+    for (unsigned near = boxes->near(box, place, within); near != 0; near &= near - 1)
     {
-      const unsigned other = boxes->brick->id(near[i]);
+      const unsigned other = boxes->id(box, hwy::Num0BitsBelowLS1Bit_Nonzero32(near));
       if (other != id)
       {
         action(other);
@@ -288,7 +248,7 @@ OverlapFinder::~OverlapFinder() = default;
 
 void OverlapFinder::addBoxes(const Brick& brick)
 {
-  boxes_.push_back(std::make_unique<const SphereBoxes>(SphereBoxes{ &brick, orderInSpace(brick) }));
+  boxes_.push_back(std::make_unique<const SphereBoxes>(brick));
   const SphereBoxes& boxes = *boxes_.back();
   scenes_.push_back(makeScene(device_.get()));
   const GeometryHandle geometry =

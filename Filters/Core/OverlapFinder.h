@@ -43,13 +43,13 @@ struct Neighbour
   }
 };
 
-struct SphereBoxes;
+class SphereBoxes;
 
 /// Finds the spheres that overlap a sphere, or come near it, for any mix of radii.
 ///
 /// Embree's point query looks the neighbours up in a hierarchy of boxes; it does not see sphere
-/// points (Embree 3 and 4), so the boxes are a user geometry. Eight spheres share a box: the
-/// hierarchy takes 9 bytes a sphere, and 4 more where these are in another order than it. The
+/// points (Embree 3 and 4), so the boxes are a user geometry. Sixteen spheres share a box: the
+/// hierarchy takes 5 bytes a sphere, and 4 more where these are in another order than it. The
 /// spheres must outlive the finder.
 class OverlapFinder
 {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace po
 {
@@ -20,6 +21,13 @@ const T* copied(std::pmr::memory_resource& memory, const T* first, std::size_t c
   std::copy_n(first, count, copy);
   return copy;
 }
+
+/// Of the half angle.
+float sineOf(const RimCap& cap)
+{
+  const auto cosine = static_cast<double>(cap.cosine);
+  return static_cast<float>(std::sqrt((1 - cosine) * (1 + cosine)));
+}
 }
 
 RimCap rimCapOf(const BuriedCap& cap)
@@ -27,68 +35,113 @@ RimCap rimCapOf(const BuriedCap& cap)
   return { cap.axis.as<float>(), static_cast<float>(cap.cosine) };
 }
 
+void RimFinder::Candidates::resize(std::size_t most)
+{
+  caps.resize(most);
+  parts.resize(most);
+}
+
+unsigned RimFinder::Candidates::select(const Candidates& others, unsigned discs)
+{
+  // Which are taken can not be foretold: no branches.
+  unsigned all = 0;
+  count = 0;
+  for (std::size_t i = 0; i < others.count; ++i)
+  {
+    const unsigned part = others.parts[i] & discs;
+    all |= part;
+    caps[count] = others.caps[i];
+    count += part != 0 ? 1 : 0;
+  }
+  return all;
+}
+
 TexelRims RimFinder::find(const SweepTexels& texels, const std::vector<BuriedCap>& caps)
 {
-  all_.resize(caps.size());
-  std::transform(caps.begin(), caps.end(), all_.begin(), rimCapOf);
-  classify(texels);
-  listByGroup();
+  begin(texels, caps);
+  for (std::size_t block = 0; block * GroupSize < texels.groups(); ++block)
+  {
+    findInBlock(texels, block);
+  }
   return { outside_.data(), rims_.data(), rims_.size(), capOf_.data(), caps_.data() };
 }
 
-void RimFinder::classify(const SweepTexels& texels)
+void RimFinder::begin(const SweepTexels& texels, const std::vector<BuriedCap>& caps)
 {
-  const std::size_t groups = texels.groups();
-  outside_ = texels.allBits();
-  covered_.resize(groups);
-  parts_.resize(all_.size() * groups);
-  for (std::size_t i = 0; i < all_.size(); ++i)
+  all_.resize(caps.size());
+  std::transform(caps.begin(), caps.end(), all_.begin(), rimCapOf);
+  sines_.resize(caps.size());
+  std::transform(all_.begin(), all_.end(), sines_.begin(), sineOf);
+  for (Candidates* candidates : { &every_, &near_, &crossing_ })
   {
-    const auto cosine = static_cast<double>(all_[i].cosine);
-    const double sine = std::sqrt((1 - cosine) * (1 + cosine));
-    classifyCap(texels.discs(), all_[i].axis, all_[i].cosine, static_cast<float>(sine),
-      covered_.data(), parts_.data() + i * groups);
-    for (std::size_t g = 0; g < groups; ++g)
+    candidates->resize(caps.size());
+  }
+  every_.count = caps.size();
+  std::iota(every_.caps.begin(), every_.caps.end(), 0u);
+  places_.assign(caps.size(), Unlisted);
+  used_.clear();
+  outside_ = texels.allBits();
+  rims_.clear();
+  capOf_.clear();
+  caps_.clear();
+}
+
+/// @return the discs that one of the candidates covers
+unsigned RimFinder::classify(
+  const TexelDiscs& discs, std::size_t group, Candidates& candidates) const
+{
+  const std::uint32_t* first = candidates.caps.data();
+  return classifyCaps(discs, group, { all_.data(), first, first + candidates.count }, sines_.data(),
+    candidates.parts.data());
+}
+
+/// Many caps cover a whole group, or do not touch it: told for many groups at once.
+void RimFinder::findInBlock(const SweepTexels& texels, std::size_t block)
+{
+  const unsigned covered = classify(texels.groupDiscs(), block, every_);
+  const std::size_t first = block * GroupSize;
+  for (std::size_t i = 0; i < std::min(GroupSize, texels.groups() - first); ++i)
+  {
+    const unsigned disc = 1u << i;
+    if ((covered & disc) != 0)
     {
-      outside_[g] = static_cast<GroupMask>(outside_[g] & ~covered_[g]);
+      outside_[first + i] = 0;
+    }
+    else if (near_.select(every_, disc) != 0)
+    {
+      findInGroup(texels, first + i);
     }
   }
 }
 
-/// Lists, group by group, the caps whose rims cross texels that are not inside.
-void RimFinder::listByGroup()
+/// Lists the caps whose rims cross texels of the group that are not inside.
+void RimFinder::findInGroup(const SweepTexels& texels, std::size_t group)
 {
-  rims_.clear();
-  capOf_.clear();
-  caps_.clear();
-  used_.clear();
-  const std::size_t groups = outside_.size();
-  places_.assign(all_.size(), Unlisted);
-  for (std::size_t g = 0; g < groups; ++g)
+  const unsigned covered = classify(texels.discs(), group, near_);
+  outside_[group] = static_cast<GroupMask>(outside_[group] & ~covered);
+  const unsigned crossed = crossing_.select(near_, outside_[group]);
+  if (crossed == 0)
   {
-    unsigned crossed = 0;
-    for (std::size_t i = 0; i < all_.size(); ++i)
-    {
-      const unsigned part = parts_[i * groups + g] & outside_[g];
-      crossed |= part;
-      if (part == 0)
-      {
-        continue;
-      }
-      if (places_[i] == Unlisted)
-      {
-        places_[i] = static_cast<std::uint32_t>(caps_.size());
-        caps_.push_back(all_[i]);
-        used_.push_back(static_cast<std::uint32_t>(i));
-      }
-      capOf_.push_back(places_[i]);
-    }
-    if (crossed != 0)
-    {
-      rims_.push_back({ static_cast<std::uint16_t>(g), static_cast<GroupMask>(crossed),
-        static_cast<std::uint32_t>(capOf_.size()) });
-    }
+    return;
   }
+  for (std::size_t i = 0; i < crossing_.count; ++i)
+  {
+    capOf_.push_back(placeOf(crossing_.caps[i]));
+  }
+  rims_.push_back({ static_cast<std::uint16_t>(group), static_cast<GroupMask>(crossed),
+    static_cast<std::uint32_t>(capOf_.size()) });
+}
+
+/// Of a cap among those that are listed; lists it if it is not.
+std::uint32_t RimFinder::placeOf(std::uint32_t cap)
+{
+  if (places_[cap] == Unlisted)
+  {
+    places_[cap] = static_cast<std::uint32_t>(caps_.size());
+    caps_.push_back(all_[cap]);
+    used_.push_back(cap);
+  }
+  return places_[cap];
 }
 
 const TexelRims* copyTo(

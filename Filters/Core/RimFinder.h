@@ -26,15 +26,34 @@ public:
   [[nodiscard]] const std::vector<std::uint32_t>& capsUsed() const { return used_; }
 
 private:
-  void classify(const SweepTexels& texels);
-  void listByGroup();
+  /// Some of the caps, and the discs of a group that each may cover in part.
+  struct Candidates
+  {
+    std::size_t count = 0;
+    std::vector<std::uint32_t> caps; ///< by their places in all_
+    std::vector<GroupMask> parts;    ///< by these
+
+    void resize(std::size_t most);
+    /// Takes those that may cover a part of some discs.
+    /// @return the discs of which any of them may
+    unsigned select(const Candidates& others, unsigned discs);
+  };
+
+  void begin(const SweepTexels& texels, const std::vector<BuriedCap>& caps);
+  [[nodiscard]] unsigned classify(
+    const TexelDiscs& discs, std::size_t group, Candidates& candidates) const;
+  void findInBlock(const SweepTexels& texels, std::size_t block);
+  void findInGroup(const SweepTexels& texels, std::size_t group);
+  [[nodiscard]] std::uint32_t placeOf(std::uint32_t cap);
 
   std::vector<RimCap> all_;
-  std::vector<GroupMask> covered_; ///< by one cap
-  std::vector<GroupMask> outside_;
-  std::vector<GroupMask> parts_;      ///< [caps][groups] those of which a cap may cover a part
+  std::vector<float> sines_;          ///< of their half angles
+  Candidates every_;                  ///< all caps, for a block of GroupSize groups
+  Candidates near_;                   ///< those that may cover parts of a group
+  Candidates crossing_;               ///< those whose rims may cross its texels that are not inside
   std::vector<std::uint32_t> places_; ///< of all caps in caps_
-  std::vector<std::uint32_t> used_;   ///< places of these in all_
+  std::vector<std::uint32_t> used_;   ///< places of caps_ in all_
+  std::vector<GroupMask> outside_;
   std::vector<RimGroup> rims_;
   std::vector<std::uint32_t> capOf_;
   std::vector<RimCap> caps_; ///< of these

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepTexels.h"
 
+#include "Constants.h"
 #include "Random.h"
 #include "Sampling.h"
 #include "TexelMap.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace po
@@ -12,8 +14,7 @@ namespace po
 namespace
 {
 constexpr int SmallestResolution = 12;
-constexpr int PatchSide = 4;
-static_assert(PatchSide * PatchSide == static_cast<int>(GroupSize));
+constexpr int Side = static_cast<int>(PatchSide);
 
 /// Fractional part of a sum of two numbers in [0, 1).
 double wrapped(double a)
@@ -22,36 +23,73 @@ double wrapped(double a)
 }
 }
 
+void TexelDiscs::add(Vec3d center, double radius)
+{
+  x.push_back(static_cast<float>(center.x));
+  y.push_back(static_cast<float>(center.y));
+  z.push_back(static_cast<float>(center.z));
+  cosRadius.push_back(static_cast<float>(std::cos(radius)));
+  sinRadius.push_back(static_cast<float>(std::sin(radius)));
+}
+
 SweepTexels::SweepTexels(int textureResolution)
   : refinement_((SmallestResolution + textureResolution - 1) / textureResolution)
   , resolution_(refinement_ * textureResolution)
 {
-  const int patches = (resolution_ + PatchSide - 1) / PatchSide;
+  const int patches = (resolution_ + Side - 1) / Side;
   for (int patch = 0; patch < patches * patches; ++patch)
   {
     for (int k = 0; k < static_cast<int>(GroupSize); ++k)
     {
-      const int row = patch / patches * PatchSide + k / PatchSide;
-      const int column = patch % patches * PatchSide + k % PatchSide;
+      const int row = patch / patches * Side + k / Side;
+      const int column = patch % patches * Side + k % Side;
       const bool exists = row < resolution_ && column < resolution_;
       const TextureCoordinate middle{ (column + 0.5) / resolution_, (row + 0.5) / resolution_ };
       texelOfSlot_.push_back(
         exists ? static_cast<std::uint32_t>(texelIndex(resolution_, row, column)) : Empty);
-      const Vec3f center = exists ? textureDirection(middle).as<float>() : Vec3f();
-      const double radius = exists ? texelAngularRadius(resolution_, row) : 0;
-      discs_.x.push_back(center.x);
-      discs_.y.push_back(center.y);
-      discs_.z.push_back(center.z);
-      discs_.cosRadius.push_back(static_cast<float>(std::cos(radius)));
-      discs_.sinRadius.push_back(static_cast<float>(std::sin(radius)));
+      discs_.add(exists ? textureDirection(middle) : Vec3d(),
+        exists ? texelAngularRadius(resolution_, row) : 0);
     }
   }
+  addGroupDiscs();
   allBits_.assign(groups(), 0);
   for (std::size_t slot = 0; slot < slots(); ++slot)
   {
     const bool exists = texelOfSlot_[slot] != Empty;
     GroupMask& mask = allBits_[slot / GroupSize];
     mask = static_cast<GroupMask>(mask | unsigned(exists) << (slot % GroupSize));
+  }
+}
+
+void SweepTexels::addGroupDiscs()
+{
+  const auto centerOf = [&](std::size_t slot) {
+    return Vec3f{ discs_.x[slot], discs_.y[slot], discs_.z[slot] }.as<double>();
+  };
+  for (std::size_t first = 0; first < slots(); first += GroupSize)
+  {
+    Vec3d sum; // empty slots add nothing
+    for (std::size_t slot = first; slot < first + GroupSize; ++slot)
+    {
+      sum = sum + centerOf(slot);
+    }
+    const Vec3d center = normalized(sum);
+    double radius = 0;
+    for (std::size_t slot = first; slot < first + GroupSize; ++slot)
+    {
+      if (texelOfSlot_[slot] != Empty)
+      {
+        const double cosine = std::min(dot(center, normalized(centerOf(slot))), 1.0);
+        const double own =
+          std::atan2(double(discs_.sinRadius[slot]), double(discs_.cosRadius[slot]));
+        radius = std::max(radius, std::acos(cosine) + own);
+      }
+    }
+    groupDiscs_.add(center, std::min(radius, Pi));
+  }
+  while (groupDiscs_.x.size() % GroupSize != 0)
+  {
+    groupDiscs_.add({}, 0);
   }
 }
 
@@ -86,6 +124,21 @@ TexelPatterns::TexelPatterns(const SweepTexels& texels, std::uint64_t seed, std:
       y[i] = static_cast<float>(n.y);
       z[i] = static_cast<float>(n.z);
     }
+  }
+}
+
+TexelPoints::TexelPoints(const TexelPatterns& patterns)
+  : x(patterns.x.size())
+  , y(x.size())
+  , z(x.size())
+{
+  for (std::size_t i = 0; i < x.size(); ++i)
+  {
+    const std::size_t from =
+      TexelPatterns::index(i % TexelPatterns::Count, i / TexelPatterns::Count);
+    x[i] = patterns.x[from];
+    y[i] = patterns.y[from];
+    z[i] = patterns.z[from];
   }
 }
 

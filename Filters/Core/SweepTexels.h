@@ -18,15 +18,22 @@ inline constexpr std::size_t GroupSize = 16;
 using GroupMask = std::uint16_t;
 inline constexpr GroupMask AllOfGroup = 0xFFFF;
 
+/// A group is a square of texels, row by row.
+inline constexpr std::size_t PatchSide = 4;
+static_assert(PatchSide * PatchSide == GroupSize);
+
 /// Points that every texel has, one for each sweep direction in turn.
 inline constexpr std::size_t PointsPerTexel = 32;
 
-/// Discs on the unit sphere, [slots] each: their centres, 0 in empty slots, and the angle between
-/// them and the farthest point of the texel.
+/// Discs on the unit sphere: their centres, 0 in empty slots, and their angular radii. There are a
+/// whole number of groups of them.
 struct TexelDiscs
 {
   std::vector<float> x, y, z;
   std::vector<float> cosRadius, sinRadius;
+
+  void add(Vec3d center, double radius);
+  void addEmpty() { add({}, 0); }
 };
 
 /// The texels that a sweep follows, and where in them it looks.
@@ -53,17 +60,22 @@ public:
   /// Row-major index of a slot's texel in the fine grid, or Empty.
   [[nodiscard]] std::uint32_t texelOfSlot(std::size_t slot) const { return texelOfSlot_[slot]; }
 
-  /// Discs around the texels of all slots.
+  /// Discs around the texels of all slots: each holds its texel.
   [[nodiscard]] const TexelDiscs& discs() const { return discs_; }
+  /// Discs around the groups: each holds the discs of its texels.
+  [[nodiscard]] const TexelDiscs& groupDiscs() const { return groupDiscs_; }
 
   /// A bit for each slot that is not empty, [groups].
   [[nodiscard]] const std::vector<GroupMask>& allBits() const { return allBits_; }
 
 private:
+  void addGroupDiscs();
+
   int refinement_;
   int resolution_;
   std::vector<std::uint32_t> texelOfSlot_;
   TexelDiscs discs_;
+  TexelDiscs groupDiscs_;
   std::vector<GroupMask> allBits_;
 };
 
@@ -89,6 +101,14 @@ struct TexelPatterns
     const std::size_t i = index(pattern, slot);
     return { x[i], y[i], z[i] };
   }
+};
+
+/// The same points texel by texel, [slots][TexelPatterns::Count].
+struct TexelPoints
+{
+  explicit TexelPoints(const TexelPatterns& patterns);
+
+  std::vector<float> x, y, z;
 };
 
 /// Patterns take turns in an order that is drawn anew each time: the heights of the directions

@@ -17,6 +17,10 @@ SweepTextures::SweepTextures(
   , formula_(records.texels(), records.patterns(), background)
   , smoothing_(std::move(smoothing))
 {
+  for (const SweepEpoch& epoch : records.epochs())
+  {
+    points_.emplace_back(epoch.patterns);
+  }
 }
 
 void SweepTextures::fill(unsigned sphere, float* values, float* shares) const
@@ -57,11 +61,12 @@ void SweepTextures::lookAtRim(const TexelRims& rims, std::size_t rim, CutSurface
 {
   const std::size_t group = rims.rims[rim].group;
   const std::size_t first = TexelPatterns::index(0, group * GroupSize);
-  for (const SweepEpoch& epoch : records_.epochs())
+  for (std::size_t i = 0; i < points_.size(); ++i)
   {
+    const SweepEpoch& epoch = records_.epochs()[i];
     const bool isPresent = &epoch.patterns == &records_.patterns();
     OutsideSums sums;
-    sumOutside(epoch.patterns, group, rims.capsOf(rim), rims.outside[group],
+    sumOutside(points_[i], group, rims.capsOf(rim), rims.outside[group], rims.rims[rim].crossed,
       epoch.weights.data() + first, isPresent ? formula_.irradianceOf(group) : nullptr, sums);
     std::transform(sums.weights.begin(), sums.weights.end(), cut.rims.data() + rim * GroupSize,
       cut.rims.data() + rim * GroupSize, std::plus<>());

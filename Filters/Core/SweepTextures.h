@@ -46,6 +46,7 @@ private:
   [[nodiscard]] std::vector<float> subsetWeights(const CutSurface& cut) const;
 
   const VisibilityRecords& records_;
+  std::vector<TexelPoints> points_; ///< of each epoch
   TextureFormula formula_;
   TextureSmoothing smoothing_;
 };

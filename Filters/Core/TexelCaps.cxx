@@ -10,42 +10,11 @@
 
 #include "TexelLanes-inl.h"
 
+#include <algorithm>
+
 HWY_BEFORE_NAMESPACE();
 namespace po::HWY_NAMESPACE
 {
-void classify(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
-  GroupMask* part)
-{
-  // Rounding may cost time, but never a wrong answer.
-  constexpr float slack = 1e-6f;
-  const Floats d;
-  const auto c = hn::Set(d, cosine);
-  const auto s = hn::Set(d, sine);
-  const std::size_t groups = discs.x.size() / GroupSize;
-  for (std::size_t g = 0; g < groups; ++g)
-  {
-    unsigned all = 0;
-    unsigned none = 0;
-    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
-    {
-      const std::size_t i = g * GroupSize + lane;
-      const auto xy = hn::MulAdd(hn::LoadU(d, discs.y.data() + i), hn::Set(d, axis.y),
-        hn::Mul(hn::LoadU(d, discs.x.data() + i), hn::Set(d, axis.x)));
-      const auto height = hn::MulAdd(hn::LoadU(d, discs.z.data() + i), hn::Set(d, axis.z), xy);
-      const auto cosRadius = hn::LoadU(d, discs.cosRadius.data() + i);
-      const auto sinRadius = hn::LoadU(d, discs.sinRadius.data() + i);
-      // cos(half angle -+ radius), for caps larger than the texel and with a gap larger than it
-      const auto cc = hn::Mul(c, cosRadius);
-      const auto inner = hn::Add(hn::MulAdd(s, sinRadius, cc), hn::Set(d, slack));
-      const auto outer = hn::Sub(hn::NegMulAdd(s, sinRadius, cc), hn::Set(d, slack));
-      all |= bitsOf(d, hn::And(hn::Gt(height, inner), hn::Lt(c, cosRadius))) << lane;
-      none |= bitsOf(d, hn::And(hn::Lt(height, outer), hn::Gt(c, hn::Neg(cosRadius)))) << lane;
-    }
-    covered[g] = static_cast<GroupMask>(all);
-    part[g] = static_cast<GroupMask>(~(all | none));
-  }
-}
-
 /// A cap, in all lanes.
 struct CapLanes
 {
@@ -60,14 +29,86 @@ struct CapLanes
   hn::Vec<Floats> x, y, z, cosine;
 };
 
+/// The discs from a slot on.
+class DiscLanes
+{
+public:
+  DiscLanes(Floats d, const TexelDiscs& discs, std::size_t slot)
+    : x_(hn::LoadU(d, discs.x.data() + slot))
+    , y_(hn::LoadU(d, discs.y.data() + slot))
+    , z_(hn::LoadU(d, discs.z.data() + slot))
+    , cosRadius_(hn::LoadU(d, discs.cosRadius.data() + slot))
+    , sinRadius_(hn::LoadU(d, discs.sinRadius.data() + slot))
+  {
+  }
+
+  /// Those that a cap covers, and those that it does not touch, as bits.
+  struct Sides
+  {
+    unsigned covered, apart;
+  };
+
+  [[nodiscard]] Sides test(Floats d, const CapLanes& cap, float sine) const
+  {
+    // Rounding may cost time, but never a wrong answer.
+    const auto slack = hn::Set(d, 1e-6f);
+    const auto xy = hn::MulAdd(y_, cap.y, hn::Mul(x_, cap.x));
+    const auto height = hn::MulAdd(z_, cap.z, xy);
+    // cos(half angle -+ radius), for caps larger than the disc and with a gap larger than it
+    const auto cc = hn::Mul(cap.cosine, cosRadius_);
+    const auto s = hn::Set(d, sine);
+    const auto inner = hn::Add(hn::MulAdd(s, sinRadius_, cc), slack);
+    const auto outer = hn::Sub(hn::NegMulAdd(s, sinRadius_, cc), slack);
+    return { bitsOf(d, hn::And(hn::Gt(height, inner), hn::Lt(cap.cosine, cosRadius_))),
+      bitsOf(d, hn::And(hn::Lt(height, outer), hn::Gt(cap.cosine, hn::Neg(cosRadius_)))) };
+  }
+
+private:
+  hn::Vec<Floats> x_, y_, z_, cosRadius_, sinRadius_;
+};
+
+/// @return those of the lanes that are covered
+inline unsigned classifyLanes(const DiscLanes& discs, std::size_t lane, const CapList& caps,
+  const float* sines, GroupMask* parts)
+{
+  const Floats d;
+  const unsigned all = (1u << hn::Lanes(d)) - 1;
+  unsigned covered = 0;
+  for (const std::uint32_t* place = caps.first; place != caps.last && covered != all; ++place)
+  {
+    const DiscLanes::Sides sides = discs.test(d, CapLanes(d, caps.caps[*place]), sines[*place]);
+    covered |= sides.covered;
+    const unsigned part = all & ~(sides.covered | sides.apart);
+    *parts = static_cast<GroupMask>(*parts | part << lane);
+    ++parts;
+  }
+  return covered;
+}
+
+GroupMask classify(const TexelDiscs& discs, std::size_t group, const CapList& caps,
+  const float* sines, GroupMask* parts)
+{
+  const Floats d;
+  std::fill_n(parts, caps.last - caps.first, GroupMask(0));
+  unsigned covered = 0;
+  for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+  {
+    const DiscLanes lanes(d, discs, group * GroupSize + lane);
+    covered |= classifyLanes(lanes, lane, caps, sines, parts) << lane;
+  }
+  return static_cast<GroupMask>(covered);
+}
+
 /// The points from a place on, and which of them lie inside caps.
 class PointLanes
 {
 public:
-  PointLanes(Floats d, const TexelPatterns& patterns, std::size_t i)
-    : x_(hn::LoadU(d, patterns.x.data() + i))
-    , y_(hn::LoadU(d, patterns.y.data() + i))
-    , z_(hn::LoadU(d, patterns.z.data() + i))
+  /// @param points patterns or texel by texel
+  template <typename Points>
+  PointLanes(Floats d, const Points& points, std::size_t i)
+    : x_(hn::LoadU(d, points.x.data() + i))
+    , y_(hn::LoadU(d, points.y.data() + i))
+    , z_(hn::LoadU(d, points.z.data() + i))
     , inside_(noLanes(d))
   {
   }
@@ -103,60 +144,88 @@ inline unsigned insideOf(
   return bits;
 }
 
-template <bool WithIrradiance>
-void sumPoints(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
-  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums)
+/// The points of a texel that lie outside all caps, a bit each.
+inline std::uint32_t outsideOf(const TexelPoints& points, std::size_t slot, const CapList& caps)
 {
   const Floats d;
-  const auto one = hn::Set(d, 1.0f);
-  for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+  const std::size_t lanes = hn::Lanes(d);
+  std::uint32_t inside = 0;
+  // Two vectors at a time, which do not wait for each other.
+  for (std::size_t p = 0; p < TexelPatterns::Count; p += 2 * lanes)
   {
-    const auto texels = lanesOf(d, unsigned(outside) >> lane);
-    auto points = hn::Zero(d);
-    auto weight = hn::Zero(d);
-    auto light = hn::Zero(d);
-    const auto add = [&](std::size_t p, const PointLanes& lanes)
+    PointLanes first(d, points, slot * TexelPatterns::Count + p);
+    PointLanes second(d, points, slot * TexelPatterns::Count + p + lanes);
+    for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
     {
-      const std::size_t inGroup = p * GroupSize + lane;
-      const auto counts = hn::AndNot(lanes.inside(), texels);
-      points = hn::Add(points, hn::IfThenElseZero(counts, one));
-      weight = hn::Add(weight, hn::IfThenElseZero(counts, hn::LoadU(d, weights + inGroup)));
-      if constexpr (WithIrradiance)
-      {
-        light = hn::Add(light, hn::IfThenElseZero(counts, hn::LoadU(d, irradiance + inGroup)));
-      }
-    };
-    // Four patterns at a time, which do not wait for each other.
-    static_assert(TexelPatterns::Count % 4 == 0);
-    for (std::size_t p = 0; p < TexelPatterns::Count; p += 4)
-    {
-      const auto pointsOf = [&](std::size_t pattern)
-      { return PointLanes(d, patterns, TexelPatterns::index(pattern, group * GroupSize + lane)); };
-      PointLanes a = pointsOf(p), b = pointsOf(p + 1), c = pointsOf(p + 2), e = pointsOf(p + 3);
-      for (const std::uint32_t* place = caps.first; place != caps.last; ++place)
-      {
-        const CapLanes cap(d, caps.caps[*place]);
-        a.test(cap);
-        b.test(cap);
-        c.test(cap);
-        e.test(cap);
-      }
-      add(p, a);
-      add(p + 1, b);
-      add(p + 2, c);
-      add(p + 3, e);
+      const CapLanes cap(d, caps.caps[*place]);
+      first.test(cap);
+      second.test(cap);
     }
-    hn::StoreU(points, d, sums.points.data() + lane);
-    hn::StoreU(weight, d, sums.weights.data() + lane);
-    hn::StoreU(light, d, sums.irradiance.data() + lane);
+    inside |= bitsOf(d, first.inside()) << p;
+    inside |= bitsOf(d, second.inside()) << (p + lanes);
   }
+  return ~inside;
 }
 
-void sumOverOutside(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
-  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums)
+/// The points of a group's texels that lie outside all caps, a bit each.
+class GroupPoints
 {
-  (irradiance == nullptr ? sumPoints<false> : sumPoints<true>)(patterns, group, caps, outside,
-    weights, irradiance, sums);
+public:
+  GroupPoints(const TexelPoints& points, std::size_t group, const CapList& caps, GroupMask outside,
+    GroupMask crossed)
+  {
+    static_assert(TexelPatterns::Count == 32);
+    for (std::size_t i = 0; i < GroupSize; ++i)
+    {
+      outside_[i] = (outside >> i & 1) != 0 ? ~std::uint32_t(0) : 0;
+    }
+    for (unsigned left = crossed; left != 0; left &= left - 1)
+    {
+      const std::size_t i = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
+      outside_[i] = outsideOf(points, group * GroupSize + i, caps);
+    }
+  }
+
+  /// @param terms [TexelPatterns::Count][GroupSize] of the points
+  void sum(const float* terms, float* sums) const
+  {
+    const Floats d;
+    const hn::RebindToUnsigned<Floats> bits;
+    for (std::size_t lane = 0; lane < GroupSize; lane += hn::Lanes(d))
+    {
+      const auto outside = hn::Load(bits, outside_ + lane);
+      auto sum = hn::Zero(d);
+      for (std::size_t p = 0; p < TexelPatterns::Count; ++p)
+      {
+        const auto counts =
+          hn::RebindMask(d, hn::TestBit(outside, hn::Set(bits, std::uint32_t(1) << p)));
+        sum = hn::Add(sum, hn::IfThenElseZero(counts, hn::LoadU(d, terms + p * GroupSize + lane)));
+      }
+      hn::StoreU(sum, d, sums + lane);
+    }
+  }
+
+  void count(float* counts) const
+  {
+    std::transform(outside_, outside_ + GroupSize, counts,
+      [](std::uint32_t points) { return static_cast<float>(hwy::PopCount(points)); });
+  }
+
+private:
+  HWY_ALIGN std::uint32_t outside_[GroupSize];
+};
+
+void sumOverOutside(const TexelPoints& points, std::size_t group, const CapList& caps,
+  GroupMask outside, GroupMask crossed, const float* weights, const float* irradiance,
+  OutsideSums& sums)
+{
+  const GroupPoints exposed(points, group, caps, outside, crossed);
+  exposed.count(sums.points.data());
+  exposed.sum(weights, sums.weights.data());
+  if (irradiance != nullptr)
+  {
+    exposed.sum(irradiance, sums.irradiance.data());
+  }
 }
 
 void clearBuried(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
@@ -209,17 +278,18 @@ HWY_EXPORT(sumOverOutside);
 HWY_EXPORT(clearBuried);
 HWY_EXPORT(clearRims);
 
-void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
-  GroupMask* part)
+GroupMask classifyCaps(const TexelDiscs& discs, std::size_t group, const CapList& caps,
+  const float* sines, GroupMask* parts)
 {
-  HWY_DYNAMIC_DISPATCH(classify)(discs, axis, cosine, sine, covered, part);
+  return HWY_DYNAMIC_DISPATCH(classify)(discs, group, caps, sines, parts);
 }
 
-void sumOutside(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
-  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums)
+void sumOutside(const TexelPoints& points, std::size_t group, const CapList& caps,
+  GroupMask outside, GroupMask crossed, const float* weights, const float* irradiance,
+  OutsideSums& sums)
 {
   HWY_DYNAMIC_DISPATCH(sumOverOutside)
-  (patterns, group, caps, outside, weights, irradiance, sums);
+  (points, group, caps, outside, crossed, weights, irradiance, sums);
 }
 
 void clearCaps(const TexelPatterns& patterns, std::size_t group, const CapList& caps,

@@ -10,12 +10,13 @@
 
 namespace po
 {
-/// Tells the texels of which a cap of the unit sphere, normal . axis > cosine, covers all from
-/// those of which it may cover a part.
-/// @param sine of the cap's half angle
-/// @param covered, part one mask for each group
-void classifyCap(const TexelDiscs& discs, Vec3f axis, float cosine, float sine, GroupMask* covered,
-  GroupMask* part);
+/// Tells the discs of a group that a cap covers from those of which caps may cover a part.
+/// @param sines of the half angles of the caps, by place
+/// @param parts by cap of the list: the discs that it may cover in part, which is not told of discs
+/// that are covered
+/// @return the discs that are covered as a whole
+[[nodiscard]] GroupMask classifyCaps(const TexelDiscs& discs, std::size_t group,
+  const CapList& caps, const float* sines, GroupMask* parts);
 
 /// Clears the bits of the points of one group that lie inside any of some caps.
 /// @param bits of the first pattern; those of the next are `stride` further
@@ -32,10 +33,12 @@ struct OutsideSums
 
 /// Sums over the points of one group, of all patterns.
 /// @param outside the texels that count; others have none
+/// @param crossed those of them that are not outside as a whole
 /// @param weights, irradiance [TexelPatterns::Count][GroupSize] of the points of the group; the
 /// second may be null
-void sumOutside(const TexelPatterns& patterns, std::size_t group, const CapList& caps,
-  GroupMask outside, const float* weights, const float* irradiance, OutsideSums& sums);
+void sumOutside(const TexelPoints& points, std::size_t group, const CapList& caps,
+  GroupMask outside, GroupMask crossed, const float* weights, const float* irradiance,
+  OutsideSums& sums);
 
 /// Clears the points of a pattern that lie inside other spheres; false if none is left.
 /// @param mask one for each group

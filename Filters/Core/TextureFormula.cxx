@@ -55,6 +55,7 @@ TextureFormula::TextureFormula(
   , uniform_(std::holds_alternative<UniformBackground>(background))
   , ones_(TexelPatterns::Count * GroupSize, 1.0f)
   , whole_{ std::vector<float>(texels.slots(), 1.0f), std::vector<float>(texels.slots(), 1.0f) }
+  , fine_(texels)
 {
   addParts(texels);
   if (!uniform_)
@@ -71,10 +72,6 @@ void TextureFormula::addParts(const SweepTexels& texels)
   for (std::size_t slot = 0; slot < texels.slots(); ++slot)
   {
     const std::uint32_t texel = texels.texelOfSlot(slot);
-    if (isWhole_)
-    {
-      wholeOfSlot_.push_back(texel);
-    }
     if (texel != SweepTexels::Empty)
     {
       const int row = static_cast<int>(texel) / texels.resolution();
@@ -151,7 +148,7 @@ void TextureFormula::fill(const OutsideSurface& surface, const float* sums, cons
 {
   if (isWhole_)
   {
-    fillWhole(surface, sums, weights, values, shares);
+    fine_.fill({ surface.shares.data(), surface.irradiance.data(), sums, weights }, values, shares);
     return;
   }
   fill(0, 0, values, shares);
@@ -169,34 +166,6 @@ void TextureFormula::fill(const OutsideSurface& surface, const float* sums, cons
   {
     values[i] = shares[i] > 0 ? values[i] / shares[i] : 0.0f;
     shares[i] /= areas_[i];
-  }
-}
-
-/// The same where each texel is one of the fine ones: without branches, in vectors.
-void TextureFormula::fillWhole(const OutsideSurface& surface, const float* sums,
-  const float* weights, float* values, float* shares) const
-{
-  for (std::size_t first = 0; first < wholeOfSlot_.size(); first += GroupSize)
-  {
-    std::array<float, GroupSize> value;
-    std::array<float, GroupSize> share;
-    for (std::size_t i = 0; i < GroupSize; ++i)
-    {
-      const std::size_t slot = first + i;
-      const float outside = weights[slot] > 0 ? surface.shares[slot] : 0.0f;
-      const float open = std::min(sums[slot] / (weights[slot] > 0 ? weights[slot] : 1.0f), 1.0f);
-      value[i] = outside > 0 ? open * surface.irradiance[slot] : 0.0f;
-      share[i] = outside;
-    }
-    for (std::size_t i = 0; i < GroupSize; ++i)
-    {
-      const std::uint32_t texel = wholeOfSlot_[first + i];
-      if (texel != SweepTexels::Empty)
-      {
-        values[texel] = value[i];
-        shares[texel] = share[i];
-      }
-    }
   }
 }
 

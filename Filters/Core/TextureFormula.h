@@ -3,12 +3,12 @@
 #define po_TextureFormula_h
 
 #include "BackgroundIrradiance.h"
+#include "FineTextures.h"
 #include "SweepTexels.h"
 #include "TexelExposure.h"
 #include "TextureSmoothing.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace po
@@ -87,8 +87,6 @@ public:
     const float* weights, const TextureSmoothing& smoothing) const;
 
 private:
-  void fillWhole(const OutsideSurface& surface, const float* sums, const float* weights,
-    float* values, float* shares) const;
   void addParts(const SweepTexels& texels);
   void addIrradiance(
     const SweepTexels& texels, const TexelPatterns& patterns, const Background& background);
@@ -107,7 +105,7 @@ private:
   std::vector<float> ones_;       ///< for all points of a group
   std::vector<float> irradiance_; ///< of all points, in the order of TexelPatterns, if not uniform
   OutsideSurface whole_;
-  std::vector<std::uint32_t> wholeOfSlot_; ///< texel of each slot, or Empty, where these are fine
+  FineTextures fine_; ///< used if isWhole_
   std::vector<Part> parts_;
   std::vector<float> areas_;       ///< of the texels: the sums of their parts, 1 up to rounding
   std::vector<double> steradians_; ///< of the texels

@@ -30,12 +30,25 @@ hn::Vec<Floats> sumOverTaps(const Tap* first, const Tap* last, const Term& term)
   return hn::Add(first == last ? even : term(*first, even), odd);
 }
 
+/// Are all texels from here on that make a vector inside others? Their sums do not matter.
+inline bool isInside(const float* factors)
+{
+  const Floats d;
+  return hn::AllFalse(d, hn::Gt(hn::LoadU(d, factors), hn::Zero(d)));
+}
+
 /// Of the texels of a row, the areas around weighted by the Gaussian.
-void sumRow(const Tap* first, const Tap* last, const float* areas, std::size_t columns, float* sums)
+/// @param sums are left as they are where texels are inside
+void sumRow(const Tap* first, const Tap* last, const float* areas, const float* factors,
+  std::size_t columns, float* sums)
 {
   const Floats d;
   for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
   {
+    if (isInside(factors + i))
+    {
+      continue;
+    }
     const auto addArea = [&](const Tap& tap, hn::Vec<Floats> sum)
     { return hn::MulAdd(hn::Set(d, tap.kernel), hn::LoadU(d, areas + tap.offset + i), sum); };
     hn::StoreU(sumOverTaps(first, last, addArea), d, sums + i);
@@ -51,6 +64,11 @@ void smoothRow(const Tap* first, const Tap* last, std::size_t row, const float* 
   for (std::size_t i = 0; i < columns; i += hn::Lanes(d))
   {
     const auto own = hn::LoadU(d, values + row + i);
+    if (isInside(factors + i))
+    {
+      hn::StoreU(own, d, smoothed + i);
+      continue;
+    }
     const auto scale = hn::LoadU(d, scales + row + i);
     const auto addFlow = [&](const Tap& tap, hn::Vec<Floats> sum)
     {
@@ -223,8 +241,8 @@ void TextureSmoothing::sumOverKernel(
   for (std::size_t row = 0; row < side_; ++row)
   {
     HWY_DYNAMIC_DISPATCH(sumRow)
-    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], weights.areas.data(), side_,
-      sums.data() + row * side_);
+    (taps_.data() + firstTap_[row], taps_.data() + firstTap_[row + 1], weights.areas.data(),
+      weights.factors.data() + row * side_, side_, sums.data() + row * side_);
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "BrickOrder.h"
 #include "OverlapFinder.h"
 #include "Random.h"
+#include "SphereBoxes.h"
 
 #include <gtest/gtest.h>
 
@@ -122,5 +124,67 @@ TEST(OverlapFinder, FindsTheNearestThatComeWithinReach)
       }
     }
   }
+}
+
+std::vector<po::Sphere> randomSpheres(std::size_t count)
+{
+  po::Random random(33, 0, 0);
+  std::vector<po::Sphere> spheres(count);
+  for (po::Sphere& sphere : spheres)
+  {
+    const auto number = [&](double low, double high)
+    { return static_cast<float>(low + (high - low) * random.uniform()); };
+    sphere = { number(0, 9), number(0, 9), number(0, 9), number(0.1, 2) };
+  }
+  return spheres;
+}
+
+std::vector<po::Sphere> sortedInSpace(const std::vector<po::Sphere>& spheres)
+{
+  const po::SphereSet set(spheres);
+  std::vector<po::Sphere> sorted;
+  for (const unsigned place : po::orderInSpace(set.bricks().front()))
+  {
+    sorted.push_back(spheres[place]);
+  }
+  return sorted;
+}
+
+/// Each sphere is in one box, and found there where it comes near.
+void expectBoxesToTellWhatComesNear(const po::SphereSet& set)
+{
+  const po::Vec3f point{ 4, 5, 4 };
+  const float distance = 2;
+  const po::SphereBoxes boxes(set.bricks().front());
+  std::vector<int> times(set.size(), 0);
+  for (unsigned box = 0; box < boxes.count(); ++box)
+  {
+    const unsigned near = boxes.near(box, point, distance);
+    EXPECT_EQ(near >> boxes.spheresIn(box), 0u);
+    for (std::size_t i = 0; i < boxes.spheresIn(box); ++i)
+    {
+      const po::Sphere& sphere = boxes.sphere(box, i);
+      EXPECT_EQ(&sphere, &set.spheres()[boxes.id(box, i)]);
+      ++times[boxes.id(box, i)];
+      const float gap = po::length(sphere.center() - point) - sphere.radius - distance;
+      if (std::abs(gap) > 1e-4f) // rounding may add some that just do not
+      {
+        EXPECT_EQ((near >> i & 1) != 0, gap < 0) << gap;
+      }
+    }
+  }
+  EXPECT_EQ(times, std::vector<int>(set.size(), 1));
+}
+
+TEST(SphereBoxes, TellWhatComesNearInAnyOrder)
+{
+  for (const std::size_t count : { std::size_t(1), po::SphereBoxes::Size, std::size_t(1000) })
+  {
+    const std::vector<po::Sphere> spheres = randomSpheres(count);
+    expectBoxesToTellWhatComesNear(po::SphereSet(spheres));
+  }
+  const po::SphereSet sorted(sortedInSpace(randomSpheres(1000)));
+  EXPECT_TRUE(po::orderInSpace(sorted.bricks().front()).empty());
+  expectBoxesToTellWhatComesNear(sorted);
 }
 }

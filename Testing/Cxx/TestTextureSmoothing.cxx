@@ -115,6 +115,27 @@ TEST(TextureSmoothing, LeavesWhatIsAllAlikeExactly)
   EXPECT_EQ(smooth(16, 112, dark, randomShares(16)), dark);
 }
 
+TEST(TextureSmoothing, LeavesWhatIsInsideAsItIs)
+{
+  // Whole rows are inside, and single texels; what they hold changes nothing.
+  std::vector<float> shares = randomShares(16);
+  std::fill_n(shares.begin(), 128, 0.0f);
+  const std::vector<float> values = randomTexels(16, 7);
+  std::vector<float> others = values;
+  for (std::size_t i = 0; i < others.size(); ++i)
+  {
+    others[i] = shares[i] > 0 ? values[i] : 0.0f;
+  }
+  const std::vector<float> smoothed = smooth(16, 112, values, shares);
+  const std::vector<float> smoothedOthers = smooth(16, 112, others, shares);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    EXPECT_EQ(smoothed[i], shares[i] > 0 ? smoothedOthers[i] : values[i]) << i;
+  }
+  EXPECT_NEAR(outsideMean(16, smoothed, shares), outsideMean(16, values, shares), 1e-6);
+  EXPECT_NE(smoothed, values);
+}
+
 TEST(TextureSmoothing, SmoothsLessWhereThereIsLessNoise)
 {
   const std::vector<float> noise = randomTexels(16, 2);
